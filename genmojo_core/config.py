@@ -1,0 +1,148 @@
+"""Run configuration: frozen dataclasses, presets, and one check that reports all faults together."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, dataclass, field, fields, replace
+from typing import Any
+
+from genmojo_core.errors import GenmojoError
+
+
+@dataclass(frozen=True)
+class LossWeights:
+    """Weights of the joint losses, in units where the RGB term's is 1 (METHOD.md section 5, divided by 1e4)."""
+
+    rgb: float = 1.0  # L1 + SSIM over the frame, foreground and background balanced
+    ssim: float = 0.2  # share of SSIM in the RGB term
+    alpha: float = 0.5  # coverage against the union of masks, balanced
+    labels: float = 0.2  # instance composition against the masks
+    depth: float = 0.3  # relative depth error inside the masks
+    depth_order: float = 0.05  # hinge between overlapping objects' depths
+    flow: float = 0.5  # L1 of splatted flow, in units of the image diagonal x 100
+    tracks: float = 1.0  # robust distance of carried points to their tracks
+    rigidity: float = 1.0  # neighbours move rigidly (corrected rotation)
+    rotation: float = 0.1  # neighbours turn alike
+    local_scale: float = 0.5  # neighbours change size alike
+    delta_scale: float = 0.1  # |change of log scale|
+    delta_color: float = 0.5  # |change of colour|: motion must not be explained by colour
+    smooth: float = 0.2  # second difference of motion in time
+
+
+@dataclass(frozen=True)
+class LearningRates:
+    """AdamW step sizes; positions are in units of the object's size (METHOD.md section 5, with the corrections)."""
+
+    means: float = 1.6e-3
+    log_scales: float = 5e-3
+    quats: float = 5e-3
+    logit_opacities: float = 5e-2
+    dc: float = 1e-2
+    planes: float = 6.4e-3
+    heads: float = 6.4e-4
+    bases: float = 2e-3
+    placement: float = 1e-3
+    delta_color: float = 1e-3
+
+
+@dataclass(frozen=True)
+class RunConfig:
+    """Everything that decides what a run does, besides the clip and its effect plan."""
+
+    preset: str = "standard"
+    short_side: int = 256  # pixels of the frame's short side while optimising
+    gaussians_per_object: int = 5000  # upper bound
+    background_gaussians: int = 8000  # upper bound
+    lift_steps: int = 150  # static lift, per run (all objects at once)
+    joint_steps: int = 900  # joint steps over all frames
+    frames_per_step: int = 3  # frames splatted per joint step
+    budget_seconds: float = 300.0  # the run ends here at the latest, with what it has
+    motion_bases: int = 10
+    plane_resolution: int = 48  # spatial nodes of the coarse K-plane level
+    plane_levels: tuple[int, ...] = (1, 2)
+    plane_channels: int = 16
+    field_width: int = 64
+    neighbours: int = 15
+    densify_every: int = 100
+    weights: LossWeights = field(default_factory=LossWeights)
+    rates: LearningRates = field(default_factory=LearningRates)
+    held_out_share: float = 0.02
+    checkpoint_seconds: float = 30.0
+    seed: int = 0
+    device: str = "auto"
+    prior: str = "none"
+    method: str = "genmojo"
+    ignore: tuple[str, ...] = ()
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data, written into scene files and checkpoints."""
+        return asdict(self)
+
+
+PRESETS: dict[str, RunConfig] = {
+    "draft": RunConfig(
+        preset="draft", short_side=128, gaussians_per_object=2000, background_gaussians=3000, lift_steps=60,
+        joint_steps=260, frames_per_step=3, budget_seconds=60.0, plane_resolution=24, plane_channels=8,
+    ),
+    "standard": RunConfig(),
+    "full": RunConfig(
+        preset="full", short_side=480, gaussians_per_object=15000, background_gaussians=60000, lift_steps=1000,
+        joint_steps=40 * 32, frames_per_step=8, budget_seconds=math.inf, plane_resolution=64,
+        plane_levels=(1, 2, 4, 8), plane_channels=32,
+    ),
+}  # fmt: skip
+
+
+def preset(name: str, **changes: Any) -> RunConfig:
+    """A preset with some fields replaced, checked.
+
+    Raises GenmojoError("config") naming every fault at once: unknown preset, unknown field, value out of range.
+    """
+    if name not in PRESETS:
+        raise GenmojoError("config", f"there is no preset '{name}'", "--preset", f"use one of {', '.join(PRESETS)}")
+    known = {f.name for f in fields(RunConfig)}
+    unknown = sorted(set(changes) - known)
+    if unknown:
+        raise GenmojoError("config", f"there is no setting {', '.join(unknown)}", "configuration")
+    config = replace(PRESETS[name], **changes)
+    faults = _faults(config)
+    if faults:
+        raise GenmojoError("config", "; ".join(faults), "configuration", "correct these settings")
+    return config
+
+
+_RANGES: dict[str, tuple[float, float]] = {
+    "short_side": (16, 4096),
+    "gaussians_per_object": (16, 200_000),
+    "background_gaussians": (0, 2_000_000),
+    "lift_steps": (0, 100_000),
+    "joint_steps": (0, 10_000_000),
+    "frames_per_step": (1, 64),
+    "budget_seconds": (1.0, math.inf),
+    "motion_bases": (1, 64),
+    "plane_resolution": (2, 256),
+    "plane_channels": (1, 128),
+    "field_width": (4, 1024),
+    "neighbours": (1, 64),
+    "densify_every": (1, 1_000_000),
+    "held_out_share": (0.0, 0.5),
+    "checkpoint_seconds": (0.1, math.inf),
+    "seed": (0, 2**31 - 1),
+}
+
+
+def _faults(config: RunConfig) -> list[str]:
+    """Every value that is out of its range, as sentences without full stops."""
+    faults = []
+    for name, (low, high) in _RANGES.items():
+        value = getattr(config, name)
+        if not isinstance(value, int | float) or math.isnan(value) or not low <= value <= high:
+            faults.append(f"{name} is {value}, allowed is {low:g} to {high:g}")
+    for group in (config.weights, config.rates):
+        for f in fields(group):
+            value = getattr(group, f.name)
+            if not math.isfinite(value) or value < 0:
+                faults.append(f"{type(group).__name__}.{f.name} is {value}, allowed is 0 or more")
+    known = ("depth", "cameras", "flow", "background", "tracks")
+    faults += [f"cannot ignore '{name}', only {', '.join(known)}" for name in config.ignore if name not in known]
+    return faults

@@ -1,0 +1,1 @@
+"""Which effects a clip calls for, with evidence."""

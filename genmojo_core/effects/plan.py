@@ -1,0 +1,59 @@
+"""The effect plan: which parts of the model a clip calls for, why, and what each costs (ARCHITECTURE.md section 3)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+EffectName = Literal[
+    "joint_occlusion", "background", "camera_motion", "non_rigid_motion", "appearance_change", "unseen_views",
+    "instance_labels", "depth_order", "flow", "track_supervision", "reappearance",
+]  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One decision.
+
+    Args:
+        name: which effect. on: the decision.
+        evidence, unit: the number measured on the clip. threshold: it is on at or above this.
+        origin: where the threshold comes from. reason: one plain sentence.
+        ms_per_step, mb: predicted cost when on. overridden: the user decided, not the evidence.
+        settings: numbers that go with it, e.g. {"motion_bases": 6}.
+    """
+
+    name: EffectName
+    on: bool
+    evidence: float
+    unit: str
+    threshold: float
+    origin: str
+    reason: str
+    ms_per_step: float = 0.0
+    mb: float = 0.0
+    overridden: bool = False
+    settings: Mapping[str, float] | None = None
+
+
+@dataclass(frozen=True)
+class EffectPlan:
+    """All decisions for one clip, in the order of `EffectName`."""
+
+    effects: tuple[Effect, ...]
+
+    def on(self, name: EffectName) -> bool:
+        """True if the effect is simulated."""
+        return self.get(name).on
+
+    def get(self, name: EffectName) -> Effect:
+        """The decision about one effect; KeyError for a name that is none."""
+        for effect in self.effects:
+            if effect.name == name:
+                return effect
+        raise KeyError(name)
+
+    def to_json(self) -> list[dict[str, Any]]:
+        """Plain data, as `genmojo effects --json` prints it."""
+        return [dict(vars(effect)) for effect in self.effects]

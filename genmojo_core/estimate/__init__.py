@@ -1,0 +1,1 @@
+"""What a clip lacks: embedded estimators and adapters to external models."""

@@ -1,0 +1,1 @@
+"""Image, view, track and time measurements."""

@@ -1,0 +1,1 @@
+"""View-synthesis priors behind one interface."""

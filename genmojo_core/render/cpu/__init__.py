@@ -1,0 +1,1 @@
+"""CPU kernels: numpy arrays in and out, no torch."""

@@ -1,0 +1,1 @@
+"""Point tracks: model, interpolation, metrics."""

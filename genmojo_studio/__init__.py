@@ -1,0 +1,1 @@
+"""GenMOJO Studio: the desktop app."""
