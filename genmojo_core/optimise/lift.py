@@ -1,0 +1,152 @@
+"""Static lift: from a complete clip and its initial motion to the first 4D scene (METHOD.md sections 2, 3, 6)."""
+
+from __future__ import annotations
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from genmojo_core.clip.clip import Clip
+from genmojo_core.config import RunConfig
+from genmojo_core.effects.plan import EffectPlan
+from genmojo_core.errors import GenmojoError
+from genmojo_core.optimise.motion import ObjectMotion
+from genmojo_core.scene.appearance import FrameGain
+from genmojo_core.scene.background import background_points
+from genmojo_core.scene.deform import DeformationField, FieldShape
+from genmojo_core.scene.gaussians import Gaussians
+from genmojo_core.scene.initialise import Points, points_of_image, uncovered
+from genmojo_core.scene.placement import Placement
+from genmojo_core.scene.scene4d import Layout, ObjectModel, Scene4D
+
+FIRST_SHARE = 0.5  # of an object's Gaussians, spent on the canonical frame
+MIN_POINTS = 16
+
+
+def lift(clip: Clip, plan: EffectPlan, config: RunConfig, motions: list[ObjectMotion]) -> Scene4D:
+    """The scene before the first optimiser step: every object placed and coloured from pixels, background behind.
+
+    Args:
+        clip: complete (estimate.complete), at the size to optimise. plan: what to allocate.
+        motions: one per object of the clip, in its order.
+
+    Raises:
+        GenmojoError("empty"): no object has a pixel with depth in any frame.
+    """
+    generator = torch.Generator().manual_seed(config.seed)
+    gain = FrameGain(len(clip), frame_gains(clip)) if plan.on("appearance_change") else None
+    objects = []
+    for k in range(clip.objects):
+        points = object_points(clip, k, motions[k], config.gaussians_per_object // 2)
+        if len(points) < MIN_POINTS:
+            points = _padded(points, clip, k, motions[k])
+        if len(points):
+            objects.append(_object_model(clip, k, motions[k], points, plan, config, generator))
+    if not objects:
+        raise GenmojoError("empty", "no object has a visible pixel with depth", clip.name, "check the masks")
+    background = None
+    if plan.on("background") and config.background_gaussians:
+        cloud = background_points(clip, config.background_gaussians)
+        background = Gaussians.from_points(_tensor(cloud.xyz), _tensor(cloud.rgb), _tensor(cloud.sigma), 0.95)
+    labels = len(objects) if plan.on("instance_labels") else 1
+    return Scene4D(objects, background, gain, clip.cameras.value, Layout(labels, plan.on("flow")))
+
+
+def object_points(clip: Clip, k: int, motion: ObjectMotion, count: int) -> Points:
+    """World points of object k as it stands in its canonical frame, parts hidden there added from other frames."""
+    cameras, ref = clip.cameras.value, motion.ref_frame
+    mask = clip.object_mask(k)
+    usable = mask & clip.depth.valid
+    points = points_of_image(clip.frames[ref], clip.depth.value[ref], usable[ref], cameras.view(ref),
+                             int(count * FIRST_SHARE))  # fmt: skip
+    others = [t for t in np.unique(np.linspace(0, len(clip) - 1, 7).astype(int)) if t != ref]
+    others.sort(key=lambda t: abs(t - ref))
+    for i, t in enumerate(others):
+        left = count - len(points)
+        if motion.confidence[t] < 0.3 or left < MIN_POINTS:
+            continue
+        there = Points(_moved(points.xyz, motion.pose[t]), points.rgb, points.sigma)
+        holes = uncovered(there, cameras.view(t), usable[t])
+        if holes.sum() < 4:
+            continue
+        share = max(MIN_POINTS, left // (len(others) - i))
+        found = points_of_image(clip.frames[t], clip.depth.value[t], holes, cameras.view(t), share)
+        back = np.linalg.inv(motion.pose[t])
+        size = np.cbrt(np.linalg.det(motion.pose[t][:3, :3]))
+        points = points.joined(Points(_moved(found.xyz, back), found.rgb, found.sigma / size))
+    return points
+
+
+def frame_gains(clip: Clip) -> Tensor:
+    """(T, 3) light relative to the clip's median frame: ratios of medians over pixels no object ever covers."""
+    free = ~(clip.masks.value > 0).any(axis=0) if clip.masks is not None else np.ones(clip.frames.shape[1:3], bool)
+    if free.sum() < 64:
+        free = np.ones(clip.frames.shape[1:3], bool)
+    means = clip.frames[:, free].astype(np.float64).mean(axis=1) + 1.0  # (T, 3)
+    plate = means[clip.background_frame]
+    return _tensor(means / plate)
+
+
+def _object_model(
+    clip: Clip, k: int, motion: ObjectMotion, points: Points, plan: EffectPlan, config: RunConfig,
+    generator: torch.Generator,
+) -> ObjectModel:  # fmt: skip
+    """One object's parameters: canonical coordinates centred and in units of the object's size."""
+    centre = np.median(points.xyz, axis=0)
+    distance = np.linalg.norm(points.xyz - centre, axis=1)
+    size = max(2.0 * float(np.percentile(distance, 95)), 4.0 * float(np.median(points.sigma)), 1e-6)
+    to_object = np.eye(4)
+    to_object[:3, :3] *= size
+    to_object[:3, 3] = centre
+    local = _tensor((points.xyz - centre) / size)
+    rgb = _tensor(points.rgb)
+    if plan.on("appearance_change"):
+        rgb = rgb / frame_gains(clip)[motion.ref_frame]
+    gaussians = Gaussians.from_points(local, rgb.clamp(0, 1), _tensor(points.sigma / size))
+    centres = np.linalg.inv(clip.cameras.value.world_to_camera)[:, :3, 3]
+    placement = Placement(motion.pose @ to_object, centres)
+    field = None
+    if plan.on("non_rigid_motion"):
+        settings = plan.get("non_rigid_motion").settings or {}
+        bases = int(settings.get("motion_bases", config.motion_bases))
+        shape = FieldShape(len(clip), bases, config.plane_resolution, config.plane_levels, config.plane_channels,
+                           config.field_width, plan.on("appearance_change"))  # fmt: skip
+        reach = local.abs().amax(dim=0).clamp(min=0.1) * 1.5
+        field = DeformationField(torch.stack([-reach, reach]), _anchors(local, bases), shape, generator)
+    return ObjectModel(int(clip.object_ids[k]), clip.object_names[k], motion.ref_frame, gaussians, placement, field)
+
+
+def _anchors(points: Tensor, count: int) -> Tensor:
+    """Farthest-point samples: `count` rows, repeated if there are fewer points."""
+    chosen = [0]
+    distance = (points - points[0]).norm(dim=1)
+    for _ in range(count - 1):
+        chosen.append(int(distance.argmax()))
+        distance = torch.minimum(distance, (points - points[chosen[-1]]).norm(dim=1))
+    return points[chosen]
+
+
+def _padded(points: Points, clip: Clip, k: int, motion: ObjectMotion) -> Points:
+    """A tiny object (a pixel or two) gets MIN_POINTS jittered copies of its points, so that nothing divides by zero."""
+    if not len(points):
+        seen = np.flatnonzero((clip.object_mask(k) & clip.depth.valid).any(axis=(1, 2)))
+        if not len(seen):
+            return points
+        t = int(seen[0])
+        mask = clip.object_mask(k)[t] & clip.depth.valid[t]
+        points = points_of_image(clip.frames[t], clip.depth.value[t], mask, clip.cameras.value.view(t), MIN_POINTS)
+        points = Points(_moved(points.xyz, np.linalg.inv(motion.pose[t])), points.rgb, points.sigma)
+    copies = int(np.ceil(MIN_POINTS / len(points)))
+    jitter = np.random.default_rng(0).normal(size=(copies * len(points), 3))
+    sigma = np.repeat(points.sigma, copies)
+    return Points(np.repeat(points.xyz, copies, axis=0) + 0.3 * jitter * sigma[:, None],
+                  np.repeat(points.rgb, copies, axis=0), sigma)  # fmt: skip
+
+
+def _moved(points: np.ndarray, pose: np.ndarray) -> np.ndarray:
+    """(N, 3) points under a (4, 4) similarity."""
+    return points @ pose[:3, :3].T + pose[:3, 3]
+
+
+def _tensor(array: np.ndarray) -> Tensor:
+    return torch.tensor(np.ascontiguousarray(array), dtype=torch.float32)
