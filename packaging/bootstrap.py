@@ -172,6 +172,8 @@ def install(place: Place, wanted: set[str]) -> None:
 
     Raises Fault for network, disk and package faults, OSError when the folder cannot be written.
     """
+    if place.venv.exists() and not place.venv.is_dir():
+        raise Fault(f"{place.venv} is a file, but the environment's folder belongs there; move it away.", 2)
     before = read_stamp(place)
     parts = wanted | set(before["parts"] if before else [])
     if "cpu" in parts:
@@ -202,8 +204,6 @@ def read_stamp(place: Place) -> dict[str, Any]:
 
 def make_venv(place: Place) -> None:
     """Make the virtual environment, or make it anew when it is of another Python or has no working pip."""
-    if place.venv.exists() and not place.venv.is_dir():
-        raise Fault(f"{place.venv} is a file, but the environment's folder belongs there; move it away.", 2)
     if venv_works(place):
         return
     if not place.venv.exists() and shutil.disk_usage(place.root).free < MIN_FREE_BYTES:
@@ -253,8 +253,9 @@ def pip(place: Place, arguments: list[str]) -> None:
         for line in process.stdout or ():
             log.write(line)
             words = line.split()
-            if words and words[0] == "Downloading":
-                say(f"downloading {' '.join(words[1:]).rsplit('/', 1)[-1]}")
+            if line.strip().startswith("Downloading") and words[-1] in ("MB)", "GB)"):
+                wheel = words[1].rsplit("/", 1)[-1].split("-")
+                say(f"downloading {' '.join(wheel[:2])} {' '.join(words[-2:])}")
             elif line.startswith("Installing collected packages"):
                 say(f"unpacking {len(words) - 3} packages")
     if process.returncode:
