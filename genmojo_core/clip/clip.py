@@ -7,8 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from genmojo_core.clip.cameras import Cameras
-
 
 @dataclass(frozen=True)
 class Channel:

@@ -1,0 +1,155 @@
+"""Frames of a video file by presentation time stamp (PyAV), never by counting (ENVIRONMENT.md section 4).
+
+One demux lists the time stamps without decoding; a range of frames is then decoded from a key frame before it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import av
+import numpy as np
+from av.error import FFmpegError, InvalidDataError
+
+from genmojo_core.clip import pictures
+from genmojo_core.clip.limits import LIMITS, PIXEL_ASPECT_RANGE, check_image_size, check_limit
+from genmojo_core.errors import GenmojoError
+
+
+@dataclass(frozen=True)
+class Index:
+    """Time stamps of a video's frames, in units of `base` seconds, rising, and those of its key frames."""
+
+    stamps: np.ndarray
+    keys: np.ndarray
+    base: float
+
+
+def read(path: Path, span: pictures.Span | None, short_side: int | None) -> pictures.Pictures:
+    """Frames of the first picture stream; their numbers are places in the order of time stamps; rotation is applied.
+
+    `seconds` count from the video's first frame. Frames that a damaged video cannot give are left out with a note.
+
+    Raises GenmojoError: "io"; "video" for a missing header, no picture stream, no frame, or frames that cannot be
+    decoded; "size" for frames over the limits; "argument" for a span outside the video.
+    """
+    where = str(path)
+    try:
+        index = _index(path)
+        chosen = pictures.select(span, len(index.stamps), where)
+        with _opened(path) as container:
+            stream = _picture_stream(container, where)
+            decoder = _Decoder(index, chosen, where)
+            frames, size = pictures.collect(decoder.run(container, stream), len(chosen), short_side)
+            aspect = _pixel_aspect(stream, turned=decoder.turned)
+    except FFmpegError as error:
+        raise _video_error(error, where) from error
+    if not decoder.found:
+        raise GenmojoError("video", "none of its frames can be decoded", where, "convert it to H.264 in mp4")
+    positions = np.array(decoder.found, np.int64)
+    seconds = (index.stamps[positions] - index.stamps[0]) * index.base
+    lost = len(chosen) - len(positions)
+    notes = (f"{lost} of {len(chosen)} frames of {path.name} cannot be decoded and are left out",) if lost else ()
+    return pictures.Pictures(frames[: len(positions)], positions, len(index.stamps), positions, seconds,
+                             tuple(f"{s:.3f} s" for s in seconds), size, aspect, notes)  # fmt: skip
+
+
+class _Decoder:
+    """Decodes the chosen frames in order and remembers which were there.
+
+    After `run`: `found` holds their positions, `turned` is True if they were turned by a quarter.
+    """
+
+    def __init__(self, index: Index, chosen: range, where: str) -> None:
+        self._index, self._chosen, self._where = index, chosen, where
+        self.found: list[int] = []
+        self.turned = False
+
+    def run(self, container: av.container.InputContainer, stream: av.VideoStream) -> Iterator[tuple[str, np.ndarray]]:
+        """(name for messages, (H, W, 3) uint8 RGB) of each chosen frame."""
+        stamps = self._index.stamps
+        first, last = stamps[self._chosen.start], stamps[self._chosen.stop - 1]
+        place = {int(s): i for i, s in enumerate(stamps)}
+        keys = self._index.keys[self._index.keys <= first]
+        if len(keys) > 1:  # two back: pictures just after a key frame may lean on the one before it
+            container.seek(int(keys[-2] if len(keys) > 2 else keys[0]), stream=stream)
+        for frame in container.decode(stream):
+            stamp = _stamp(frame)
+            if stamp is None or stamp < first or stamp not in place:
+                continue
+            if stamp > last:
+                break
+            if self.found and place[stamp] <= self.found[-1]:
+                continue
+            check_image_size(frame.width, frame.height, self._where)
+            self.found.append(place[stamp])
+            self.turned = frame.rotation % 180 == 90
+            picture = np.rot90(frame.to_ndarray(format="rgb24"), round(frame.rotation / 90))
+            yield f"{self._where} at {(stamp - stamps[0]) * self._index.base:.3f} s", np.ascontiguousarray(picture)
+
+
+def _index(path: Path) -> Index:
+    """Time stamps by one demux; by decoding where packets carry none."""
+    with _opened(path) as container:
+        stream = _picture_stream(container, str(path))
+        base = float(stream.time_base or 0) or 1 / 24
+        packets = [p for p in container.demux(stream) if p.size and not p.is_discard]
+        check_limit("frames", len(packets), str(path))
+        stamps = [p.pts for p in packets]
+        keys = [p.pts for p in packets if p.is_keyframe and p.pts is not None]
+    if None in stamps:
+        keys = []
+        with _opened(path) as container:
+            frames = container.decode(_picture_stream(container, str(path)))
+            stamps = [_stamp(frame) for frame in frames]
+    known = np.unique(np.array([s for s in stamps if s is not None], np.int64))
+    if not known.size:
+        raise GenmojoError("video", "holds no frame", str(path), "give a video with pictures")
+    return Index(known, np.unique(np.array(keys, np.int64)), base)
+
+
+def _opened(path: Path) -> av.container.InputContainer:
+    """The container; the caller closes it. Raises GenmojoError("io") if the file cannot be opened."""
+    try:
+        return av.open(str(path), metadata_errors="ignore")
+    except OSError as error:
+        if isinstance(error, FFmpegError) and not isinstance(error, FileNotFoundError | PermissionError):
+            raise
+        raise GenmojoError("io", f"cannot be read ({error.strerror})", str(path), "check the path") from error
+
+
+def _picture_stream(container: av.container.InputContainer, where: str) -> av.VideoStream:
+    """The first stream of pictures, with the decoder held to the size limits."""
+    if not container.streams.video:
+        raise GenmojoError("video", "holds sound but no pictures" if container.streams.audio else "holds no pictures",
+                           where, "give a video with pictures")  # fmt: skip
+    stream = container.streams.video[0]
+    if stream.codec_context is None:
+        raise GenmojoError("video", "is stored in a codec that is not known here", where, "convert it to H.264 in mp4")
+    stream.codec_context.options = {"max_pixels": str(LIMITS["image_pixels"].most)}
+    check_image_size(stream.codec_context.width, stream.codec_context.height, where)
+    return stream
+
+
+def _stamp(frame: av.VideoFrame) -> int | None:
+    """Presentation time stamp, else the decoding one."""
+    return frame.pts if frame.pts is not None else frame.dts
+
+
+def _pixel_aspect(stream: av.VideoStream, *, turned: bool) -> float | None:
+    """width / height of a pixel as the file states it, after rotation."""
+    ratio = float(stream.sample_aspect_ratio or 0)
+    if not PIXEL_ASPECT_RANGE[0] <= ratio <= PIXEL_ASPECT_RANGE[1]:
+        return None
+    return 1 / ratio if turned else ratio
+
+
+def _video_error(error: FFmpegError, where: str) -> GenmojoError:
+    """What FFmpeg says, in one sentence."""
+    if isinstance(error, InvalidDataError):
+        return GenmojoError(
+            "video", "is no video, or its header is missing or damaged", where, "record or copy it again"
+        )
+    return GenmojoError("video", f"cannot be decoded ({error.strerror})", where, "convert it to H.264 in mp4")
