@@ -1,0 +1,144 @@
+"""Which splats touch which tile, in depth order, without sorting (tile, depth) pairs.
+
+The splats drawn are sorted once by depth (`rank` = place in that order); a counting sort by tile that walks the ranks
+upwards is stable, so every tile lists its splats front to back. An entry is one splat on one tile. Its `slot` counts
+the tiles of a splat one after the other (first_slot[rank] + place of the tile in the splat's rectangle of tiles), so
+that backward finds all gradient rows of a splat side by side, whatever thread wrote them.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from genmojo_core.errors import GenmojoError
+from genmojo_core.render.cpu.cache import inlined, kernel
+from genmojo_core.render.cpu.project import GEOMETRY, Ellipses, Lens
+
+TILE = 16  # pixels
+ENTRY_LIMIT = 2**24  # entries of one view: 1 GiB of gradient rows
+RADIX_BITS = 11
+
+
+class Bins(NamedTuple):
+    """Splats of one view by depth and by tile. M drawn splats, E entries, T tiles (row by row)."""
+
+    order: np.ndarray  # (M,) int64 index of the splat at each rank
+    box: np.ndarray  # (M, 4) int32 as in Ellipses, by rank
+    first_slot: np.ndarray  # (M + 1,) int64
+    tile_start: np.ndarray  # (T + 1,) int64 first entry of each tile
+    rank: np.ndarray  # (E,) int32 splat of the entry
+    slot: np.ndarray  # (E,) int32 gradient row of the entry
+    tiles_x: int
+    tiles_y: int
+
+
+@kernel
+def depth_order(depth: np.ndarray, box: np.ndarray) -> np.ndarray:
+    """Indices of the splats that are drawn, by rising depth, ties by index: LSD radix sort of the float's bits.
+
+    Depths are positive, so their bits as unsigned integers rise with them.
+    """
+    keys = depth.view(np.uint32)
+    count = 0
+    order = np.empty(depth.size, np.int64)
+    for i in range(depth.size):
+        if box[i, 0] <= box[i, 1]:
+            order[count] = i
+            count += 1
+    order = order[:count]
+    other = np.empty(count, np.int64)
+    starts = np.empty((1 << RADIX_BITS) + 1, np.int64)
+    digit_mask = np.uint32((1 << RADIX_BITS) - 1)
+    for shift in range(0, 32, RADIX_BITS):
+        starts[:] = 0
+        for i in order:
+            starts[((keys[i] >> np.uint32(shift)) & digit_mask) + 1] += 1
+        for digit in range(1 << RADIX_BITS):
+            starts[digit + 1] += starts[digit]
+        for i in order:
+            digit = (keys[i] >> np.uint32(shift)) & digit_mask
+            other[starts[digit]] = i
+            starts[digit] += 1
+        order, other = other, order
+    return order
+
+
+@kernel
+def gather(start: int, stop: int, order: np.ndarray, ellipses: Ellipses, channels: np.ndarray, out: tuple) -> None:
+    """Copy ranks start..stop-1 into depth order: records (M, 6 + slots) float32 and boxes (M, 4) int32.
+
+    Slot 0 holds the depth; `channels` (N, slots - 1) float32 the rest.
+    """
+    records, box = out
+    for rank in range(start, stop):
+        i = order[rank]
+        for k in range(GEOMETRY):
+            records[rank, k] = ellipses.geometry[i, k]
+        records[rank, GEOMETRY] = ellipses.depth[i]
+        for k in range(channels.shape[1]):
+            records[rank, GEOMETRY + 1 + k] = channels[i, k]
+        for k in range(4):
+            box[rank, k] = ellipses.box[i, k]
+
+
+@inlined
+def _tiles(box: np.ndarray, rank: int) -> tuple:
+    """First and last tile column, first and last tile row of a splat."""
+    return box[rank, 0] // TILE, box[rank, 1] // TILE, box[rank, 2] // TILE, box[rank, 3] // TILE
+
+
+@kernel
+def count_entries(box: np.ndarray, tiles_x: int, tiles_y: int, first_slot: np.ndarray, tile_start: np.ndarray) -> None:
+    """Fill first_slot (M + 1,) and tile_start (T + 1,), both int64, zero on entry."""
+    for rank in range(box.shape[0]):
+        x0, x1, y0, y1 = _tiles(box, rank)
+        first_slot[rank + 1] = first_slot[rank] + (x1 - x0 + 1) * (y1 - y0 + 1)
+        for y in range(y0, y1 + 1):
+            for x in range(x0, x1 + 1):
+                tile_start[y * tiles_x + x + 1] += 1
+    for tile in range(tiles_x * tiles_y):
+        tile_start[tile + 1] += tile_start[tile]
+
+
+@kernel
+def scatter_entries(bins: Bins) -> None:
+    """Fill rank and slot of every entry, tile by tile in depth order."""
+    following = bins.tile_start.copy()
+    for rank in range(bins.box.shape[0]):
+        x0, x1, y0, y1 = _tiles(bins.box, rank)
+        slot = bins.first_slot[rank]
+        for y in range(y0, y1 + 1):
+            for x in range(x0, x1 + 1):
+                entry = following[y * bins.tiles_x + x]
+                following[y * bins.tiles_x + x] = entry + 1
+                bins.rank[entry] = rank
+                bins.slot[entry] = slot
+                slot += 1
+
+
+def bin_splats(lens: Lens, order: np.ndarray, box: np.ndarray) -> Bins:
+    """The bins of M splats by depth: order (M,) int64, box (M, 4) int32 by rank.
+
+    Raises GenmojoError("budget") where splats cover so many tiles that the gradients would not fit into memory.
+    """
+    tiles_x, tiles_y = -(-lens.width // TILE), -(-lens.height // TILE)
+    spans = box.astype(np.int64) // TILE
+    tiles = (spans[:, 1] - spans[:, 0] + 1) * (spans[:, 3] - spans[:, 2] + 1)
+    entries = int(tiles.sum())
+    if entries > ENTRY_LIMIT:
+        worst = int(np.argmax(tiles))
+        raise GenmojoError(
+            "budget",
+            f"{len(order)} splats cover {entries} tiles of a {lens.width} x {lens.height} image, the limit is"
+            f" {ENTRY_LIMIT}; the widest is splat {int(order[worst])} with {int(tiles[worst])} tiles",
+            "rasteriser",
+            "remove or shrink splats that fill the view, or render a smaller image",
+        )
+    first_slot, tile_start = np.zeros(len(order) + 1, np.int64), np.zeros(tiles_x * tiles_y + 1, np.int64)
+    count_entries(box, tiles_x, tiles_y, first_slot, tile_start)
+    rank, slot = np.empty(entries, np.int32), np.empty(entries, np.int32)
+    bins = Bins(order, box, first_slot, tile_start, rank, slot, tiles_x, tiles_y)
+    scatter_entries(bins)
+    return bins

@@ -1,0 +1,174 @@
+"""Front-to-back blending, one tile of 16 x 16 pixels at a time.
+
+A tile is 32 blocks of 4 x 2 pixels; a block is one eight-lane vector. Per entry a 32-bit mask of the blocks inside the
+splat's box (and still alive) is walked by its lowest set bit. Per block and splat
+
+    e = log2(alpha) = log2(o) + A dx^2 + B dx dy + C dy^2      (A, B, C carry the conic and log2 e)
+    seen = e >= log2(1/255) and T > 0                          (the cut comes before the exponential)
+    alpha = min(0.99, 2^e);  rest = T - alpha T;  stop = rest <= 1e-4
+    w = alpha T where seen and not stop;  out_c += w f_c;  T <- rest, or -T where stop
+
+A negative T marks a finished pixel and keeps its final transmittance; a block whose pixels are all finished leaves the
+mask, a tile without blocks ends. The blocks that were seen are stored per entry: backward needs no culling.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from genmojo_core.render.cpu.bins import TILE, Bins
+from genmojo_core.render.cpu.cache import inlined, kernel
+from genmojo_core.render.cpu.project import GEOMETRY
+from genmojo_core.render.cpu.simd import (
+    bits,
+    exp2_8,
+    fma,
+    load8,
+    min8,
+    prefetch,
+    select8,
+    splat8,
+    store4x2,
+    store8,
+    trailing_zeros,
+)  # fmt: skip
+from genmojo_core.render.rasterizer import ALPHA_MAX, ALPHA_MIN, TRANSMITTANCE_MIN
+
+BLOCKS = 32
+BLOCK_WIDTH, BLOCK_HEIGHT = 4, 2
+LANES = 8
+CUT = np.float32(math.log2(ALPHA_MIN))
+MOST = np.float32(ALPHA_MAX)
+STOP = np.float32(TRANSMITTANCE_MIN)
+AHEAD = 6  # entries
+
+
+class Drawing(NamedTuple):
+    """What the tile kernels read and write for one view and up to 16 channel slots."""
+
+    records: np.ndarray  # (M * (6 + slots),) float32 by rank
+    slots: int  # channels including depth, even
+    attached: int  # the first of them that give gradient to geometry, even
+    planes: np.ndarray  # ((1 + slots) * padded height * padded width,) float32: alpha, then slots
+    hits: np.ndarray  # (E,) uint32 by slot: the blocks an entry was seen in
+    width: int
+    height: int
+
+
+@inlined
+def block_mask(box: np.ndarray, rank: int, left: int, top: int) -> int:
+    """Blocks of the tile at pixel (left, top) that a splat's box touches; block = 4 row + column."""
+    first_x, last_x = max(box[rank, 0] - left, 0) >> 2, min(box[rank, 1] - left, TILE - 1) >> 2
+    first_y, last_y = max(box[rank, 2] - top, 0) >> 1, min(box[rank, 3] - top, TILE - 1) >> 1
+    columns = (1 << (last_x + 1)) - (1 << first_x)
+    rows = (1 << (4 * (last_y + 1))) - (1 << (4 * first_y))
+    return (columns * 0x11111111) & rows
+
+
+@inlined
+def inside_mask(left: int, top: int, width: int, height: int) -> int:
+    """Blocks of the tile with at least one pixel of the image."""
+    columns = min((width - left + BLOCK_WIDTH - 1) // BLOCK_WIDTH, 4)
+    rows = min((height - top + BLOCK_HEIGHT - 1) // BLOCK_HEIGHT, 8)
+    return (((1 << columns) - 1) * 0x11111111) & ((1 << (4 * rows)) - 1)
+
+
+@inlined
+def pixel_centres(places: np.ndarray) -> None:
+    """Fill (512,) float32: x of the 32 x 8 pixel centres inside a tile, then y."""
+    for block in range(BLOCKS):
+        for lane in range(LANES):
+            at = block * LANES + lane
+            places[at] = (block & 3) * BLOCK_WIDTH + (lane & 3) + 0.5
+            places[BLOCKS * LANES + at] = (block >> 2) * BLOCK_HEIGHT + (lane >> 2) + 0.5
+
+
+@inlined
+def exponent(records: np.ndarray, at: int, dx: object, dy: object) -> object:
+    """log2 of the unclamped alpha of one record at pixel offsets dx, dy (Float8)."""
+    inner = fma(records[at + 2], dx, records[at + 3] * dy)
+    return fma(dx, inner, fma(records[at + 4] * dy, dy, records[at + 5]))
+
+
+@inlined
+def blend(drawing: Drawing, at: int, mask: int, corner: tuple, scratch: tuple) -> tuple:
+    """Blend one record into the blocks of `mask`; returns the blocks seen and the blocks now finished."""
+    state, places = scratch
+    records, slots = drawing.records, drawing.slots
+    stride = (1 + slots) * LANES
+    x, y = records[at] - corner[0], records[at + 1] - corner[1]
+    seen_blocks, finished = 0, 0
+    while mask != 0:
+        block = trailing_zeros(mask)
+        mask &= mask - 1
+        dx = load8(places, block * LANES) - x
+        dy = load8(places, (BLOCKS + block) * LANES) - y
+        e = exponent(records, at, dx, dy)
+        cell = block * stride
+        t = load8(state, cell)
+        seen = (e >= CUT) & (t > np.float32(0))
+        if bits(seen) == 0:
+            continue
+        seen_blocks |= 1 << block
+        part = min8(exp2_8(e), MOST) * t
+        rest = t - part
+        going = rest > STOP
+        t = select8(seen, select8(going, rest, np.float32(0) - t), t)
+        w = select8(seen & going, part, np.float32(0))
+        store8(state, cell, t)
+        for c in range(slots >> 1):
+            here = cell + (1 + 2 * c) * LANES
+            f = at + GEOMETRY + 2 * c
+            store8(state, here, fma(w, records[f], load8(state, here)))
+            store8(state, here + LANES, fma(w, records[f + 1], load8(state, here + LANES)))
+        if bits(t > np.float32(0)) == 0:
+            finished |= 1 << block
+    return seen_blocks, finished
+
+
+@inlined
+def write_tile(drawing: Drawing, state: np.ndarray, left: int, top: int, pitch: int, plane: int) -> None:
+    """Copy a tile's state into the padded planes: alpha = 1 - |T|, then the slots."""
+    slots = drawing.slots
+    for block in range(BLOCKS):
+        cell = block * (1 + slots) * LANES
+        place = (top + (block >> 2) * BLOCK_HEIGHT) * pitch + left + (block & 3) * BLOCK_WIDTH
+        t = load8(state, cell)
+        t = select8(t > np.float32(0), t, np.float32(0) - t)
+        store4x2(drawing.planes, place, place + pitch, np.float32(1) - t)
+        for c in range(slots):
+            here = (1 + c) * plane + place
+            store4x2(drawing.planes, here, here + pitch, load8(state, cell + (1 + c) * LANES))
+
+
+@kernel
+def draw_tiles(start: int, stop: int, drawing: Drawing, bins: Bins) -> None:
+    """Blend tiles start..stop-1 into the planes and record which blocks each entry was seen in."""
+    slots = drawing.slots
+    width = GEOMETRY + slots
+    state = np.empty(BLOCKS * (1 + slots) * LANES, np.float32)
+    places = np.empty(2 * BLOCKS * LANES, np.float32)
+    pixel_centres(places)
+    pitch = bins.tiles_x * TILE
+    for tile in range(start, stop):
+        left, top = (tile % bins.tiles_x) * TILE, (tile // bins.tiles_x) * TILE
+        state[:] = 0
+        for block in range(BLOCKS):
+            store8(state, block * (1 + slots) * LANES, splat8(np.float32(1)))
+        alive = inside_mask(left, top, drawing.width, drawing.height)
+        corner = (np.float32(left), np.float32(top))
+        last = bins.tile_start[tile + 1]
+        for entry in range(bins.tile_start[tile], last):
+            rank = bins.rank[entry]
+            prefetch(drawing.records, bins.rank[min(entry + AHEAD, last - 1)] * width)
+            mask = block_mask(bins.box, rank, left, top) & alive
+            if mask != 0:
+                seen, finished = blend(drawing, rank * width, mask, corner, (state, places))
+                drawing.hits[bins.slot[entry]] = seen
+                alive &= ~finished
+                if alive == 0:
+                    break
+        write_tile(drawing, state, left, top, pitch, pitch * bins.tiles_y * TILE)

@@ -1,0 +1,233 @@
+"""The CPU rasteriser on numpy arrays: project -> bins -> forward, and backward -> project_backward.
+
+`rasterize` draws. `draw` also returns what `backward` needs. Features beyond 15 are drawn in further passes over the
+same bins; their contributions to the geometry's gradient add up.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from genmojo_core.clip.cameras import View
+from genmojo_core.errors import GenmojoError
+from genmojo_core.render.cpu.backward import Slopes, slope_tiles
+from genmojo_core.render.cpu.bins import TILE, Bins, bin_splats, depth_order, gather
+from genmojo_core.render.cpu.forward import Drawing, draw_tiles
+from genmojo_core.render.cpu.project import GEOMETRY, Cloud, Ellipses, Lens, lens_of, project_range
+from genmojo_core.render.cpu.project_backward import MOMENTS, Gradients, Sums, gather_gradients
+from genmojo_core.render.cpu.threads import run_jobs, run_ranges
+from genmojo_core.render.rasterizer import Rendering, Splats
+
+MAX_SLOTS = 16  # channels of one pass, depth included
+SPLATS_PER_JOB = 2048
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where the features of one pass lie among its slots.
+
+    Slot 0 is depth, then the attached features, one empty slot if that makes the number odd, then the detached ones
+    and again up to an even number.
+    """
+
+    attached: range  # columns of the features
+    detached: range
+
+    @property
+    def attached_slots(self) -> int:
+        """Depth and attached features, rounded up to even."""
+        return _even(1 + len(self.attached))
+
+    @property
+    def slots(self) -> int:
+        """All slots of the pass."""
+        return self.attached_slots + _even(len(self.detached))
+
+    def columns(self) -> list[tuple[slice, slice]]:
+        """(columns of the features, slots) pairs."""
+        pairs = []
+        for columns, first in ((self.attached, 1), (self.detached, self.attached_slots)):
+            if len(columns):
+                pairs.append((slice(columns.start, columns.stop), slice(first, first + len(columns))))
+        return pairs
+
+
+@dataclass
+class Pass:
+    """One pass over the tiles: layout, kernel arguments, planes (1 + slots, padded height, padded width)."""
+
+    layout: Layout
+    drawing: Drawing
+    planes: np.ndarray
+
+
+@dataclass
+class Drawn:
+    """A picture and what its backward pass needs."""
+
+    lens: Lens
+    cloud: Cloud
+    bins: Bins
+    features: int
+    passes: list[Pass] = field(default_factory=list)
+
+    def rendering(self) -> Rendering[np.ndarray]:
+        """Views into the planes: features (H, W, C), depth (H, W), alpha (H, W), float32."""
+        height, width = self.lens.height, self.lens.width
+        first = self.passes[0].planes[:, :height, :width]
+        parts = {}
+        for one in self.passes:
+            for columns, slots in one.layout.columns():
+                parts[columns.start] = one.planes[1 + slots.start : 1 + slots.stop, :height, :width]
+        planes = [parts[key] for key in sorted(parts)]
+        if not planes:
+            planes = [np.zeros((0, height, width), np.float32)]
+        features = planes[0] if len(planes) == 1 else np.concatenate(planes)
+        return Rendering(features.transpose(1, 2, 0), first[1], first[0])
+
+
+def rasterize(splats: Splats[np.ndarray], view: View) -> Rendering[np.ndarray]:
+    """Draw splats; semantics in render/rasterizer.py, arrays of any float dtype in, float32 out.
+
+    At the edges: no splat, or none in view, gives zeros. Raises GenmojoError("schema") for shapes that do not fit and
+    GenmojoError("budget") where splats cover too many tiles (bins.py).
+    """
+    return draw(splats, view).rendering()
+
+
+def draw(
+    splats: Splats[np.ndarray], view: View, *, detached_channels: int = 0, pose: np.ndarray | None = None
+) -> Drawn:
+    """Draw splats and keep what `backward` needs.
+
+    Args:
+        splats: as in render/rasterizer.py.
+        view: the camera; `pose` (4, 4) takes the place of its world_to_camera.
+        detached_channels: that many last feature channels give gradient to the features only.
+    """
+    cloud, features = _checked(splats)
+    lens = lens_of(view, pose)
+    ellipses = Ellipses(
+        np.empty((len(features), GEOMETRY), np.float32),
+        np.empty(len(features), np.float32),
+        np.empty((len(features), 4), np.int32),
+    )
+    run_ranges(lambda a, b: project_range(a, b, lens, cloud, ellipses), len(features), SPLATS_PER_JOB)
+    order = depth_order(ellipses.depth, ellipses.box)
+    bins = bin_splats(lens, order, ellipses.box[order])
+    drawn = Drawn(lens, cloud, bins, features.shape[1])
+    for layout in layouts(features.shape[1], detached_channels):
+        drawn.passes.append(_draw_pass(drawn, layout, ellipses, features))
+    return drawn
+
+
+def backward(drawn: Drawn, upstream: Rendering[np.ndarray]) -> tuple[Splats[np.ndarray], np.ndarray]:
+    """Gradients of sum(upstream * rendering): for the splats (float32) and for the pose (4, 4) float64."""
+    count = len(drawn.cloud.means)
+    totals: list[Any] = [np.zeros(s, np.float32) for s in ((count, 3), (count, 4), (count, 3), (count,))]
+    features = np.zeros((count, drawn.features), np.float32)
+    pose = np.zeros((4, 4))
+    for index, one in enumerate(drawn.passes):
+        gradients = _pass_gradients(drawn, one, upstream, first=index == 0)
+        for total, part in zip(totals, gradients[:4], strict=True):
+            total += part
+        for columns, slots in one.layout.columns():
+            features[:, columns] = gradients.channels[:, slots]
+        pose[:3] += gradients.pose.sum(axis=0)
+    return Splats(*totals, features), pose
+
+
+def layouts(features: int, detached: int) -> list[Layout]:
+    """Passes for that many feature channels of which the last `detached` are detached."""
+    if not 0 <= detached <= features:
+        raise GenmojoError("argument", f"detached_channels is {detached} of {features} channels", "rasteriser")
+    attached = features - detached
+    if Layout(range(attached), range(attached, features)).slots <= MAX_SLOTS:
+        return [Layout(range(attached), range(attached, features))]
+    step = MAX_SLOTS - 1
+    found = [Layout(range(i, min(i + step, attached)), range(0)) for i in range(0, attached, step)]
+    found = found or [Layout(range(0), range(0))]
+    step = MAX_SLOTS - 2
+    found += [Layout(range(0), range(i, min(i + step, features))) for i in range(attached, features, step)]
+    return found
+
+
+def _draw_pass(drawn: Drawn, layout: Layout, ellipses: Ellipses, features: np.ndarray) -> Pass:
+    """Blend the features of one pass."""
+    bins, lens = drawn.bins, drawn.lens
+    count, slots = len(bins.order), layout.slots
+    channels = np.zeros((len(features), slots - 1), np.float32)
+    for columns, places in layout.columns():
+        channels[:, places.start - 1 : places.stop - 1] = features[:, columns]
+    records = np.empty((count, GEOMETRY + slots), np.float32)
+    run_ranges(
+        lambda a, b: gather(a, b, bins.order, ellipses, channels, (records, bins.box)), count, SPLATS_PER_JOB
+    )  # fmt: skip
+    planes = np.empty((1 + slots, bins.tiles_y * TILE, bins.tiles_x * TILE), np.float32)
+    hits = np.zeros(len(bins.rank), np.uint32)
+    drawing = Drawing(
+        records.ravel(), slots, layout.attached_slots, planes.ravel(), hits, lens.width, lens.height
+    )  # fmt: skip
+    tiles = bins.tiles_x * bins.tiles_y
+    run_ranges(lambda a, b: draw_tiles(a, b, drawing, bins), tiles, _tile_chunk(bins))
+    return Pass(layout, drawing, planes)
+
+
+def _pass_gradients(drawn: Drawn, one: Pass, upstream: Rendering[np.ndarray], *, first: bool) -> Gradients:
+    """Gradients of one pass; depth and alpha count in the first pass only."""
+    bins, slots, count = drawn.bins, one.layout.slots, len(drawn.cloud.means)
+    height, width = drawn.lens.height, drawn.lens.width
+    planes = np.zeros(one.planes.shape, np.float32)
+    if first:
+        planes[0, :height, :width] = upstream.alpha
+        planes[1, :height, :width] = upstream.depth
+    for columns, places in one.layout.columns():
+        part = np.moveaxis(np.asarray(upstream.features)[:, :, columns], 2, 0)
+        planes[1 + places.start : 1 + places.stop, :height, :width] = part
+    row = -(-(MOMENTS + slots) // 8) * 8
+    slopes = Slopes(planes.ravel(), np.empty(len(bins.rank) * row, np.float32), row)
+    tiles = bins.tiles_x * bins.tiles_y
+    run_ranges(lambda a, b: slope_tiles(a, b, one.drawing, bins, slopes), tiles, _tile_chunk(bins))
+    ranks = len(bins.order)
+    jobs = -(-ranks // SPLATS_PER_JOB)
+    out = Gradients(
+        np.zeros((count, 3), np.float32), np.zeros((count, 4), np.float32), np.zeros((count, 3), np.float32),
+        np.zeros(count, np.float32), np.zeros((count, slots), np.float32), np.zeros((jobs, 3, 4)),
+    )  # fmt: skip
+    sums, scene = Sums(slopes.rows, row, one.drawing.hits), (drawn.lens, drawn.cloud)
+
+    def job(index: int) -> None:
+        span = (index * SPLATS_PER_JOB, min((index + 1) * SPLATS_PER_JOB, ranks))
+        gather_gradients(index, span, bins, scene, sums, out)
+
+    run_jobs(job, jobs)
+    return out
+
+
+def _tile_chunk(bins: Bins) -> int:
+    """Tiles per job: about 32 jobs, so that threads end together."""
+    return max(1, bins.tiles_x * bins.tiles_y // 32)
+
+
+def _even(number: int) -> int:
+    """Rounded up to an even number."""
+    return number + number % 2
+
+
+def _checked(splats: Splats[np.ndarray]) -> tuple[Cloud, np.ndarray]:
+    """Splats as contiguous float32 arrays of matching shapes, or GenmojoError("schema")."""
+    count = len(splats.means)
+    wanted = {"means": (count, 3), "quats": (count, 4), "scales": (count, 3), "opacities": (count,)}
+    arrays = []
+    for name, shape in wanted.items():
+        array = np.ascontiguousarray(getattr(splats, name), dtype=np.float32)
+        if array.shape != shape:
+            raise GenmojoError("schema", f"{name} has shape {array.shape}, expected {shape}", "rasteriser")
+        arrays.append(array)
+    features = np.asarray(splats.features, dtype=np.float32)
+    if features.ndim != 2 or len(features) != count:
+        raise GenmojoError("schema", f"features have shape {features.shape}, expected ({count}, C)", "rasteriser")
+    return Cloud(*arrays), features

@@ -1,0 +1,50 @@
+"""Run a kernel over a range on several threads. The result never depends on how many."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+
+_state: dict[str, ThreadPoolExecutor | int | None] = {"pool": None, "threads": 0}
+
+
+def available_threads() -> int:
+    """Processors this process may use, at least 1."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def set_threads(threads: int) -> None:
+    """Use that many threads from now on (at least 1); 0 = one per available processor."""
+    pool = _state["pool"]
+    if isinstance(pool, ThreadPoolExecutor):
+        pool.shutdown(wait=True)
+    _state["threads"] = max(threads, 0)
+    _state["pool"] = None
+
+
+def get_threads() -> int:
+    """Threads in use."""
+    return int(_state["threads"] or 0) or available_threads()  # type: ignore[arg-type]
+
+
+def run_jobs(job: Callable[[int], object], count: int) -> None:
+    """Call job(0), ..., job(count - 1), on the pool where there is more than one job and one thread."""
+    threads = get_threads()
+    if threads == 1 or count <= 1:
+        for index in range(count):
+            job(index)
+        return
+    pool = _state["pool"]
+    if not isinstance(pool, ThreadPoolExecutor):
+        pool = ThreadPoolExecutor(threads, thread_name_prefix="genmojo-raster")
+        _state["pool"] = pool
+    for _ in pool.map(job, range(count)):
+        pass
+
+
+def run_ranges(kernel: Callable[[int, int], object], size: int, chunk: int) -> None:
+    """Call kernel(start, stop) over 0..size-1 in pieces of `chunk` (the same pieces for any number of threads)."""
+    run_jobs(lambda index: kernel(index * chunk, min((index + 1) * chunk, size)), -(-size // chunk))
