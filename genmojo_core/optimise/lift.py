@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import torch
 from torch import Tensor
@@ -11,6 +13,7 @@ from genmojo_core.config import RunConfig
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.errors import GenmojoError
 from genmojo_core.optimise.motion import ObjectMotion
+from genmojo_core.optimise.objective import TrackSupervision
 from genmojo_core.scene.appearance import FrameGain
 from genmojo_core.scene.background import background_points
 from genmojo_core.scene.deform import DeformationField, FieldShape
@@ -23,7 +26,21 @@ FIRST_SHARE = 0.5  # of an object's Gaussians, spent on the canonical frame
 MIN_POINTS = 16
 
 
-def lift(clip: Clip, plan: EffectPlan, config: RunConfig, motions: list[ObjectMotion]) -> Scene4D:
+@dataclass(frozen=True)
+class Lifted:
+    """The first scene.
+
+    rows: clip object index -> position among the scene's objects (an object that is never seen has none);
+    frames_of: (centre (3,), size) of each scene object's canonical coordinates; warnings: sentences for the user.
+    """
+
+    scene: Scene4D
+    rows: dict[int, int]
+    frames_of: list[tuple[np.ndarray, float]]
+    warnings: tuple[str, ...]
+
+
+def lift(clip: Clip, plan: EffectPlan, config: RunConfig, motions: list[ObjectMotion]) -> Lifted:
     """The scene before the first optimiser step: every object placed and coloured from pixels, background behind.
 
     Args:
@@ -35,13 +52,19 @@ def lift(clip: Clip, plan: EffectPlan, config: RunConfig, motions: list[ObjectMo
     """
     generator = torch.Generator().manual_seed(config.seed)
     gain = FrameGain(len(clip), frame_gains(clip)) if plan.on("appearance_change") else None
-    objects = []
+    objects: list[ObjectModel] = []
+    rows: dict[int, int] = {}
+    frames_of, warnings = [], []
     for k in range(clip.objects):
         points = object_points(clip, k, motions[k], config.gaussians_per_object // 2)
         if len(points) < MIN_POINTS:
             points = _padded(points, clip, k, motions[k])
-        if len(points):
-            objects.append(_object_model(clip, k, motions[k], points, plan, config, generator))
+        if not len(points):
+            warnings.append(f"object {clip.object_names[k]} is never visible and is left out")
+            continue
+        rows[k] = len(objects)
+        frames_of.append(_canonical_frame(points))
+        objects.append(_object_model(clip, k, motions[k], points, plan, config, generator))
     if not objects:
         raise GenmojoError("empty", "no object has a visible pixel with depth", clip.name, "check the masks")
     background = None
@@ -49,7 +72,19 @@ def lift(clip: Clip, plan: EffectPlan, config: RunConfig, motions: list[ObjectMo
         cloud = background_points(clip, config.background_gaussians)
         background = Gaussians.from_points(_tensor(cloud.xyz), _tensor(cloud.rgb), _tensor(cloud.sigma), 0.95)
     labels = len(objects) if plan.on("instance_labels") else 1
-    return Scene4D(objects, background, gain, clip.cameras.value, Layout(labels, plan.on("flow")))
+    scene = Scene4D(objects, background, gain, clip.cameras.value, Layout(labels, plan.on("flow")))
+    return Lifted(scene, rows, frames_of, tuple(warnings))
+
+
+def track_supervision(lifted: Lifted, motions: list[ObjectMotion]) -> list[TrackSupervision]:
+    """The initial motion's point tracks in each scene object's canonical coordinates."""
+    tracks = []
+    for k, row in lifted.rows.items():
+        centre, size = lifted.frames_of[row]
+        motion = motions[k]
+        tracks.append(TrackSupervision(_tensor((motion.track_xyz - centre) / size), _tensor(motion.track_xy),
+                                       _tensor(motion.track_conf)))  # fmt: skip
+    return tracks
 
 
 def object_points(clip: Clip, k: int, motion: ObjectMotion, count: int) -> Points:
@@ -92,9 +127,7 @@ def _object_model(
     generator: torch.Generator,
 ) -> ObjectModel:  # fmt: skip
     """One object's parameters: canonical coordinates centred and in units of the object's size."""
-    centre = np.median(points.xyz, axis=0)
-    distance = np.linalg.norm(points.xyz - centre, axis=1)
-    size = max(2.0 * float(np.percentile(distance, 95)), 4.0 * float(np.median(points.sigma)), 1e-6)
+    centre, size = _canonical_frame(points)
     to_object = np.eye(4)
     to_object[:3, :3] *= size
     to_object[:3, 3] = centre
@@ -114,6 +147,13 @@ def _object_model(
         reach = local.abs().amax(dim=0).clamp(min=0.1) * 1.5
         field = DeformationField(torch.stack([-reach, reach]), _anchors(local, bases), shape, generator)
     return ObjectModel(int(clip.object_ids[k]), clip.object_names[k], motion.ref_frame, gaussians, placement, field)
+
+
+def _canonical_frame(points: Points) -> tuple[np.ndarray, float]:
+    """Centre (3,) and size of the object: canonical coordinates are (x - centre) / size, about -0.5..0.5."""
+    centre = np.median(points.xyz, axis=0)
+    distance = np.linalg.norm(points.xyz - centre, axis=1)
+    return centre, max(2.0 * float(np.percentile(distance, 95)), 4.0 * float(np.median(points.sigma)), 1e-6)
 
 
 def _anchors(points: Tensor, count: int) -> Tensor:

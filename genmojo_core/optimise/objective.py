@@ -1,0 +1,164 @@
+"""One micro-batch: states of all objects, one joint splat per frame, every loss the plan calls for, one scalar."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import torch
+from torch import Tensor
+
+from genmojo_core.config import LossWeights
+from genmojo_core.effects.plan import EffectPlan
+from genmojo_core.optimise import losses
+from genmojo_core.optimise.regularise import Neighbours, nearest, rigidity, scale_terms
+from genmojo_core.optimise.targets import FrameTargets, Targets
+from genmojo_core.render.backend import Splat
+from genmojo_core.render.rasterizer import Rendering, Splats
+from genmojo_core.scene import safemath
+from genmojo_core.scene.scene4d import ObjectState, Scene4D
+
+SAMPLED_ROWS = 1024  # Gaussians per object and step that the neighbour terms look at
+
+
+@dataclass(frozen=True)
+class TrackSupervision:
+    """Tracks of one object: canonical points (P, 3) object units, xy (P, T, 2) px, conf (P, T)."""
+
+    points: Tensor
+    xy: Tensor
+    conf: Tensor
+
+
+@dataclass
+class Outcome:
+    """Loss of one micro-batch, its weighted parts, and squared errors on held-out and foreground pixels."""
+
+    loss: Tensor
+    parts: dict[str, float]
+    held_out: list[tuple[int, float, int]]  # frame, summed squared error, count
+    foreground: list[tuple[int, float]]  # frame, PSNR in dB
+
+
+class Objective:
+    """The joint loss for one scene.
+
+    Args:
+        scene, targets, weights: what is compared. plan: which terms exist at all. splat: rasteriser.
+        tracks: one per object of the scene, used if the plan has track supervision.
+    """
+
+    def __init__(
+        self, scene: Scene4D, targets: Targets, plan: EffectPlan, weights: LossWeights, splat: Splat,
+        tracks: list[TrackSupervision], neighbours: int,
+    ) -> None:  # fmt: skip
+        self.scene, self.targets, self.weights, self.splat = scene, targets, weights, splat
+        self.tracks = tracks if plan.on("track_supervision") else []
+        self.labels = scene.layout.labels > 1
+        self.order = plan.on("depth_order") and self.labels
+        self.count = neighbours
+        self.frames = len(targets)
+        self.refresh_neighbours()
+
+    def refresh_neighbours(self) -> None:
+        """After density control: nearest neighbours of every object's canonical Gaussians."""
+        self.neighbours: list[Neighbours | None] = [
+            None if o.field is None else nearest(o.gaussians.means, self.count) for o in self.scene.objects
+        ]
+
+    def evaluate(self, frames: list[int], deform: bool, generator: torch.Generator) -> Outcome:
+        """All terms over some frames; the mean over frames, regularisers once."""
+        pairs = deform or self.scene.layout.flow
+        needed = sorted({*frames, *(min(t + 1, self.frames - 1) for t in frames)}) if pairs else frames
+        states = dict(zip(needed, self.scene.states(needed, deform), strict=True))
+        terms: dict[str, Tensor] = {}
+        held_out, foreground = [], []
+        for t in frames:
+            after = states.get(t + 1)
+            target = self.targets.frame(t)
+            rendering = self._render(t, states[t], after)
+            for name, value in self._data_terms(t, states[t], rendering, target).items():
+                terms[name] = terms.get(name, 0.0) + value / len(frames)
+            squared = ((rendering.features[..., :3].detach() - target.rgb) ** 2).mean(-1)
+            cut = target.held_out
+            held_out.append((t, float(squared[cut].sum()), int(cut.sum())))
+            inside = target.labels > 0
+            if bool(inside.any()):
+                foreground.append((t, float(-10.0 * torch.log10(squared[inside].mean().clamp(min=1e-10)))))
+        if deform:
+            for name, value in self._motion_terms(frames, states, generator).items():
+                terms[name] = value
+        weighted = {name: getattr(self.weights, name) * value for name, value in terms.items()}
+        loss = torch.stack(list(weighted.values())).sum()
+        return Outcome(loss, {n: float(v.detach()) for n, v in weighted.items()}, held_out, foreground)
+
+    def _render(self, t: int, now: list[ObjectState], after: list[ObjectState] | None) -> Rendering:
+        layout = self.scene.layout
+        c = self.scene.compose(t, now, after if layout.flow else None)
+        splats = Splats(c.means, c.quats, c.scales, c.opacities, c.features)
+        return self.splat(splats, self.scene.cameras.view(t), detached_channels=2 if layout.flow else 0)
+
+    def _data_terms(
+        self, t: int, now: list[ObjectState], rendering: Rendering, target: FrameTargets
+    ) -> dict[str, Tensor]:
+        layout = self.scene.layout
+        inside = (target.labels > 0).float()
+        terms = {
+            "rgb": losses.color_loss(rendering, target, inside, self.scene.background is not None),
+            "alpha": losses.coverage_loss(rendering, layout, target, inside),
+            "depth": losses.depth_loss(rendering, layout, target),
+        }
+        if self.labels:
+            terms["labels"] = losses.label_loss(rendering, layout, target)
+        if layout.flow:
+            terms["flow"] = losses.flow_loss(rendering, layout, target)
+        if self.order:
+            terms["depth_order"] = self._order_term(t, now, rendering, target)
+        return terms
+
+    def _order_term(self, t: int, now: list[ObjectState], rendering: Rendering, target: FrameTargets) -> Tensor:
+        means = torch.cat([s.means for s in now])
+        owner = torch.cat([torch.full((len(s.means),), k) for k, s in enumerate(now)])
+        pixels, depths = safemath.project(means, self.scene.w2c[t], self.scene.K[t], self.scene.cameras.near)
+        return losses.order_loss(pixels, depths, owner, rendering, target, self.scene.layout)
+
+    def _motion_terms(
+        self, frames: list[int], states: dict[int, list[ObjectState]], generator: torch.Generator
+    ) -> dict[str, Tensor]:
+        """Regularisers over pairs of frames, and the tracks."""
+        zero = self.scene.w2c.sum() * 0.0
+        names = ("rigidity", "rotation", "local_scale", "delta_scale", "delta_color", "smooth")
+        terms = dict.fromkeys(names, zero)
+        objects = len(self.scene.objects)
+        for k, model in enumerate(self.scene.objects):
+            terms["smooth"] = terms["smooth"] + model.placement.smoothness() * self.frames / objects
+            if model.field is None:
+                continue
+            terms["smooth"] = terms["smooth"] + model.field.smoothness() * self.frames / objects
+            rows = torch.randperm(len(model.gaussians), generator=generator)[:SAMPLED_ROWS]
+            for t in frames:
+                now, after = states[t][k], states.get(t + 1)
+                share = 1.0 / (objects * len(frames))
+                values = [*scale_terms(now.deformation, self.neighbours[k], rows)]
+                if after is not None:
+                    values += [*rigidity(now, after[k], self.neighbours[k], rows)]
+                for name, value in zip(("local_scale", "delta_scale", "rigidity", "rotation"), values, strict=False):
+                    terms[name] = terms[name] + share * value
+                if now.deformation.d_dc is not None:
+                    terms["delta_color"] = terms["delta_color"] + share * now.deformation.d_dc.abs().mean()
+        if self.tracks:
+            terms["tracks"] = self._track_term(frames)
+        return terms
+
+    def _track_term(self, frames: list[int]) -> Tensor:
+        width, height = self.scene.cameras.size
+        diagonal = (width * width + height * height) ** 0.5
+        total = self.scene.w2c.sum() * 0.0
+        for model, tracks in zip(self.scene.objects, self.tracks, strict=True):
+            if not len(tracks.points):
+                continue
+            carried = model.carry(tracks.points, frames)
+            for b, t in enumerate(frames):
+                pixels, _ = safemath.project(carried[b], self.scene.w2c[t], self.scene.K[t], self.scene.cameras.near)
+                value = losses.track_loss(pixels, tracks.xy[:, t], tracks.conf[:, t], diagonal)
+                total = total + value / (len(frames) * len(self.tracks))
+        return total

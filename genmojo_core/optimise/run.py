@@ -1,0 +1,195 @@
+"""The optimisation, told as events: the one way a clip becomes a scene (ARCHITECTURE.md section 2).
+
+    run = Run(clip, plan, config)
+    for event in run:
+        ...
+    scene = run.bake()
+
+Reading order of the method: motion.py (initial motion), lift.py (first scene), then the loop below.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import torch
+
+from genmojo_core.clip.clip import Clip
+from genmojo_core.config import RunConfig
+from genmojo_core.effects.plan import EffectPlan
+from genmojo_core.errors import GenmojoError
+from genmojo_core.events import Checkpointed, Event, Failed, Finished, Preview, StageStarted, Step, Warned
+from genmojo_core.optimise import checkpoint, density
+from genmojo_core.optimise.bake import Provenance, bake
+from genmojo_core.optimise.guard import Guard
+from genmojo_core.optimise.lift import lift, track_supervision
+from genmojo_core.optimise.motion import initial_motion
+from genmojo_core.optimise.objective import Objective, Outcome
+from genmojo_core.optimise.progress import Clock, Progress
+from genmojo_core.optimise.schedule import (
+    Stage,
+    draw_frames,
+    frames_in_play,
+    make_optimiser,
+    set_rates,
+    stages,
+)
+from genmojo_core.optimise.targets import Targets
+from genmojo_core.render.backend import choose
+from genmojo_core.store.scene_file import BakedScene
+
+SNAPSHOT_EVERY = 50  # steps
+PREVIEW_EVERY = 25  # steps
+
+
+class Run:
+    """One optimisation of one clip.
+
+    Args:
+        clip: complete (estimate.complete), at the size to optimise. plan: its effects. config: presets and changes.
+        run_dir: where checkpoints go; None writes none. resume: go on from run_dir's checkpoint.
+
+    Iterating yields events and ends with Finished or Failed. `stop()` may be called from another thread or a signal
+    handler: the loop ends after the present step with what it has. `bake()` works after the first Preview.
+
+    Raises (on iteration):
+        GenmojoError: no object in the clip ("empty"), a checkpoint that does not fit ("schema", "corrupt", "io").
+    """
+
+    def __init__(
+        self, clip: Clip, plan: EffectPlan, config: RunConfig, run_dir: str | Path | None = None, resume: bool = False
+    ) -> None:
+        self.clip, self.plan, self.config = clip, plan, config
+        self.run_dir = None if run_dir is None else Path(run_dir)
+        self.resume = resume
+        self.clock = Clock()
+        self.progress = Progress(config, stages(config, len(clip)), len(clip))
+        self.stopped = False
+
+    def stop(self) -> None:
+        """Ask the loop to end after the present step."""
+        self.stopped = True
+
+    def bake(self) -> BakedScene:
+        """The scene as it stands. Raises GenmojoError("empty") before the first Preview."""
+        if not hasattr(self, "scene"):
+            raise GenmojoError("empty", "there is no scene yet", self.clip.name, "let the run reach its first preview")
+        config = {**self.config.to_json(), "input": self.clip.path, "guesses": list(self.clip.guesses)}
+        metrics = {"steps": float(self.progress.step), "seconds": self.clock.now()[0]}
+        return bake(self.scene, self.clip, Provenance(config, self.plan.to_json(), self.progress.curve, metrics))
+
+    def __iter__(self) -> Iterator[Event]:
+        torch.manual_seed(self.config.seed)
+        yield StageStarted(*self.clock.now(), "motion", 0, "following every object through the clip")
+        yield from self._prepare()
+        yield Preview(*self.clock.now(), "lift", self.progress.step, self.reference, self.first_psnr)
+        try:
+            for stage in self.progress.stages:
+                yield from self._stage(stage)
+                if self._over():
+                    break
+        except GenmojoError as error:
+            yield Failed(*self.clock.now(), self.progress.step, error.code, error.sentence())
+            return
+        yield from self._checkpoint()
+        reason = "interrupted" if self.stopped else "budget" if self.progress.out_of_time(self.clock) else "done"
+        yield Finished(*self.clock.now(), self.progress.step, reason, {"psnr_held_out": self.progress.psnr()})
+
+    def _prepare(self) -> Iterator[Event]:
+        """Initial motion, first scene, optimiser, and the checkpoint if there is one to resume."""
+        motions = initial_motion(self.clip)
+        lifted = lift(self.clip, self.plan, self.config, motions)
+        for message in lifted.warnings:
+            yield Warned(*self.clock.now(), "object_not_visible", message)
+        self.scene = lifted.scene
+        self.reference = sorted(o.ref_frame for o in self.scene.objects)[len(self.scene.objects) // 2]
+        self.targets = Targets(self.clip, lifted.rows, self.config.held_out_share, self.config.seed)
+        tracks = track_supervision(lifted, motions)
+        self.objective = Objective(self.scene, self.targets, self.plan, self.config.weights,
+                                   choose(self.config.device), tracks, self.config.neighbours)  # fmt: skip
+        self.optimiser = make_optimiser(self.scene, self.config)
+        self.generator = torch.Generator().manual_seed(self.config.seed)
+        if self.resume:
+            if self.run_dir is None:
+                raise GenmojoError("argument", "there is no run folder to resume from", "--resume", "give --run-dir")
+            meta = checkpoint.load(self.run_dir, self.scene, self.optimiser)
+            self.progress.restore(meta)
+            self.clock.add(meta["seconds"], meta["cpu_seconds"])
+            self.generator.set_state(torch.tensor(meta["generator"], dtype=torch.uint8))
+            self.objective.refresh_neighbours()
+        with torch.no_grad():
+            first = self.objective.evaluate([self.reference], False, self.generator)
+        self.first_psnr = first.foreground[0][1] if first.foreground else 0.0
+        self._new_statistics()
+        self.guard = Guard(self.scene, self.optimiser)
+
+    def _stage(self, stage: Stage) -> Iterator[Event]:
+        """Steps of one stage, with density control, snapshots, previews and checkpoints in between."""
+        start = self.progress.begin(stage)
+        if start >= stage.steps:
+            return
+        yield StageStarted(*self.clock.now(), stage.name, stage.steps, "")
+        for i in range(start, stage.steps):
+            outcome = None
+            for message in self.guard.quarantine():
+                yield Warned(*self.clock.now(), "not_finite", message)
+            outcome = self._step(stage, i)
+            self.progress.advance(outcome, self.clock, len(self.scene))
+            yield self.progress.event(self.clock, len(self.scene))
+            if (i + 1) % self.config.densify_every == 0 and i + 1 < 0.8 * stage.steps:
+                self._control_density()
+            if self.progress.step % SNAPSHOT_EVERY == 0:
+                self.guard.snapshot()
+            if self.progress.step % PREVIEW_EVERY == 0 and outcome.foreground:
+                frame, psnr = outcome.foreground[-1]
+                yield Preview(*self.clock.now(), stage.name, self.progress.step, frame, psnr)
+            if self.progress.checkpoint_due(self.clock):
+                yield from self._checkpoint()
+            if self._over():
+                return
+
+    def _step(self, stage: Stage, i: int) -> Outcome:
+        """One optimiser step."""
+        share = i / stage.steps if stage.deform else 0.1
+        candidates = frames_in_play(len(self.clip), self.reference, share if len(self.clip) > 1 else 1.0)
+        frames = draw_frames(candidates, self.config.frames_per_step, self.config.seed, self.progress.step)
+        set_rates(self.optimiser, self.progress.fraction(self.clock))
+        self.optimiser.zero_grad(set_to_none=True)
+        outcome = self.objective.evaluate(frames, stage.deform, self.generator)
+        outcome.loss.backward()
+        verdict = self.guard.judge(outcome.loss)
+        if verdict == "rollback":
+            self.guard.rollback()
+        elif verdict == "step":
+            for gaussians, statistics in self.statistics:
+                if gaussians.means.grad is not None:
+                    statistics.add(gaussians.means.grad)
+            self.optimiser.step()
+        return outcome
+
+    def _control_density(self) -> None:
+        """Grow and prune every object's Gaussians; the background keeps its own."""
+        for gaussians, statistics in self.statistics:
+            density.control(gaussians, statistics, self.config.gaussians_per_object, self.optimiser, self.generator)
+        self.objective.refresh_neighbours()
+        self._new_statistics()
+        self.guard.snapshot()
+
+    def _new_statistics(self) -> None:
+        self.statistics = [
+            (o.gaussians, density.GradientStatistics(len(o.gaussians))) for o in self.scene.objects
+        ]
+
+    def _over(self) -> bool:
+        return self.stopped or self.progress.out_of_time(self.clock)
+
+    def _checkpoint(self) -> Iterator[Event]:
+        if self.run_dir is None:
+            return
+        wall, cpu = self.clock.now()
+        meta = {**self.progress.state(), "seconds": wall, "cpu_seconds": cpu,
+                "generator": self.generator.get_state().tolist()}  # fmt: skip
+        path = checkpoint.save(self.run_dir, self.scene, self.optimiser, meta)
+        self.progress.checkpointed(self.clock)
+        yield Checkpointed(*self.clock.now(), self.progress.step, str(path))

@@ -1,0 +1,92 @@
+"""What a run does when: stages, frames that take part, learning rates, progress against steps and budget."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+
+from genmojo_core.config import RunConfig
+from genmojo_core.scene.scene4d import Scene4D
+
+FINAL_RATE = 0.1  # of the first learning rate, reached at the end
+OUTWARD_SHARE = 0.3  # of the joint stage, by which all frames take part
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A stretch of steps: the static lift (`deform` False) or the joint optimisation."""
+
+    name: str
+    steps: int
+    deform: bool
+
+
+def stages(config: RunConfig, frames: int) -> list[Stage]:
+    """The stages of a run; a still has no motion, so its joint stage only refines."""
+    return [Stage("lift", config.lift_steps, False), Stage("joint", config.joint_steps, frames > 1)]
+
+
+def frames_in_play(frames: int, centre: int, share: float) -> np.ndarray:
+    """Frames that take part, outward from the canonical frame: a window that grows to the whole clip.
+
+    Args:
+        share: 0..1 of the stage done.
+    """
+    reach = 2 + math.ceil((frames - 1) * min(1.0, share / OUTWARD_SHARE))
+    everything = np.arange(frames)
+    return everything[np.abs(everything - centre) <= reach]
+
+
+def draw_frames(candidates: np.ndarray, count: int, seed: int, step: int) -> list[int]:
+    """`count` frames without replacement for one step; the same for the same seed and step."""
+    rng = np.random.default_rng((seed, step))
+    return sorted(int(t) for t in rng.choice(candidates, size=min(count, len(candidates)), replace=False))
+
+
+def rate_factor(progress: float) -> float:
+    """Learning rates stay for half the run, then fall along a cosine to FINAL_RATE."""
+    x = min(max((progress - 0.5) / 0.5, 0.0), 1.0)
+    return FINAL_RATE + (1.0 - FINAL_RATE) * 0.5 * (1.0 + math.cos(math.pi * x))
+
+
+def make_optimiser(scene: Scene4D, config: RunConfig) -> torch.optim.AdamW:
+    """AdamW with one group per kind of parameter; decay 0.01 only on the deformation field (METHOD.md section 5).
+
+    Decay on opacity logits and placements would shrink them for no reason (METHOD.md section 2).
+    """
+    rates = config.rates
+    groups: dict[str, list[torch.nn.Parameter]] = {}
+    sizes = {"means": rates.means, "log_scales": rates.log_scales, "quats": rates.quats,
+             "logit_opacities": rates.logit_opacities, "dc": rates.dc, "planes": rates.planes, "heads": rates.heads,
+             "bases": rates.bases, "placement": rates.placement, "log_gain": rates.delta_color}  # fmt: skip
+    for name, parameter in scene.named_parameters():
+        if parameter.requires_grad:
+            groups.setdefault(_kind(name), []).append(parameter)
+    rows = [
+        {"params": members, "lr": sizes[kind], "start_lr": sizes[kind], "kind": kind,
+         "weight_decay": 0.01 if kind in ("planes", "heads") else 0.0}
+        for kind, members in groups.items()
+    ]  # fmt: skip
+    return torch.optim.AdamW(rows, eps=1e-15, betas=(0.9, 0.99), fused=True)
+
+
+def set_rates(optimiser: torch.optim.Optimizer, progress: float) -> None:
+    """Learning rates for this part of the run."""
+    factor = rate_factor(progress)
+    for group in optimiser.param_groups:
+        group["lr"] = group["start_lr"] * factor
+
+
+def _kind(name: str) -> str:
+    """Parameter group of a parameter by its path in the scene."""
+    leaf = name.rsplit(".", 1)[-1]
+    if ".planes." in name:
+        return "planes"
+    if ".trunk." in name or ".head." in name:
+        return "heads"
+    if ".placement." in name:
+        return "placement"
+    return leaf
