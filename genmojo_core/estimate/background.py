@@ -2,24 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import cv2
 import numpy as np
 
-from genmojo_core.clip.cameras import Cameras, View
+from genmojo_core.clip.cameras import Cameras
+from genmojo_core.estimate.views import carry, depth_in
 
 _MOST_FRAMES = 41  # frames a plate is made from; more do not change a median
 _PAINT_SIDE = 256  # short side at which unseen parts are painted
-
-
-@dataclass(frozen=True)
-class Plate:
-    """The background seen by one frame's camera: color (H, W, 3) uint8, depth (H, W) float32, seen (H, W) bool."""
-
-    color: np.ndarray
-    depth: np.ndarray
-    seen: np.ndarray
 
 
 def make_plate(
@@ -44,24 +34,6 @@ def make_plate(
     median = masked_median(stack)
     plate = np.where(seen[..., None], median, 0).round().astype(np.uint8)
     return paint(plate, ~seen), seen
-
-
-def carry(source: View, target: View, depth: np.ndarray) -> np.ndarray:  # (H, W) -> (H, W, 2) float32
-    """Where the target camera sees the source's pixels, lifted by their depth, in OpenCV's pixel-centre coordinates.
-
-    Pixels behind the target camera go to (-1e4, -1e4).
-    """
-    h, w = depth.shape
-    x, y = np.meshgrid(np.arange(w) + 0.5, np.arange(h) + 0.5)
-    motion = target.world_to_camera @ np.linalg.inv(source.world_to_camera)
-    xyz = np.stack([(x - source.cx) / source.fx * depth, (y - source.cy) / source.fy * depth, depth], axis=-1)
-    xyz = xyz @ motion[:3, :3].T + motion[:3, 3]
-    z = xyz[..., 2]
-    front = z > 1e-6
-    z = np.where(front, z, 1.0)
-    u = np.where(front, target.fx * xyz[..., 0] / z + target.cx - 0.5, -1e4)
-    v = np.where(front, target.fy * xyz[..., 1] / z + target.cy - 0.5, -1e4)
-    return np.stack([u, v], axis=-1).clip(-1e4, 1e4).astype(np.float32)
 
 
 def masked_median(stack: np.ndarray) -> np.ndarray:  # (N, H, W, ...) float32 with NaN where unknown
@@ -108,7 +80,7 @@ def plate_depth(
         ok = free[j] & valid[j]
         source, target = cameras.view(int(j)), cameras.view(reference)
         where = carry(source, target, depth[j])[ok]
-        z = _depth_in(source, target, depth[j])[ok]
+        z = depth_in(source, target, depth[j])[ok]
         column, row = np.rint(where[:, 0]).astype(int), np.rint(where[:, 1]).astype(int)
         inside = (column >= 0) & (column < w) & (row >= 0) & (row < h) & (z > 0)
         stack[i, row[inside], column[inside]] = z[inside]
@@ -136,11 +108,3 @@ def fill_smoothly(values: np.ndarray, known: np.ndarray) -> np.ndarray:  # (H, W
         coarse = cv2.resize(result, value.shape[::-1], interpolation=cv2.INTER_LINEAR)
         result = np.where(weight > 0, value, coarse)
     return result.astype(np.float32)
-
-
-def _depth_in(source: View, target: View, depth: np.ndarray) -> np.ndarray:  # (H, W) -> (H, W)
-    """Depth, in the target camera, of the source's pixels lifted by their depth."""
-    h, w = depth.shape
-    x, y = np.meshgrid(np.arange(w) + 0.5, np.arange(h) + 0.5)
-    row = (target.world_to_camera @ np.linalg.inv(source.world_to_camera))[2]
-    return depth * (row[0] * (x - source.cx) / source.fx + row[1] * (y - source.cy) / source.fy + row[2]) + row[3]

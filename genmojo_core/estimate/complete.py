@@ -9,7 +9,7 @@ import numpy as np
 
 from genmojo_core.clip.clip import Channel, Clip
 from genmojo_core.errors import GenmojoError
-from genmojo_core.estimate import background, cameras, depth, flow
+from genmojo_core.estimate import background, cameras, depth, flow, order
 
 Progress = Callable[[str, float], None]
 
@@ -92,7 +92,8 @@ def _with_depth(clip: Clip, free: np.ndarray) -> Clip:
         clip = clip.with_channels(depth=Channel(clean, clip.depth.valid, clip.depth.source))
         plate, seen = background.plate_depth(clean, clip.depth.valid, free, rig, clip.background_frame)
         return clip.with_channels(background_depth=Channel(plate, seen, "estimated: median of the given depth"))
-    guess, plate = depth.guess_depth(labels, clip.objects, rig)
+    votes = order.front_votes(labels, clip.objects, clip.flow.value)
+    guess, plate = depth.guess_depth(labels, clip.objects, rig, votes, clip.background_frame)
     source = f"estimated: {depth.METHOD}"
     return clip.with_channels(
         depth=Channel(guess, np.ones(guess.shape, bool), source),
