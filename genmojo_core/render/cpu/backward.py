@@ -19,8 +19,21 @@ from typing import NamedTuple
 
 import numpy as np
 
+from genmojo_core.kernels.cache import inlined, kernel
+from genmojo_core.kernels.simd import (
+    exp2_8,
+    fma,
+    load4x2,
+    load8,
+    min8,
+    prefetch,
+    select8,
+    splat8,
+    store8,
+    sum_rows,
+    trailing_zeros,
+)  # fmt: skip
 from genmojo_core.render.cpu.bins import TILE, Bins
-from genmojo_core.render.cpu.cache import inlined, kernel
 from genmojo_core.render.cpu.forward import (
     BLOCK_HEIGHT,
     BLOCK_WIDTH,
@@ -34,19 +47,6 @@ from genmojo_core.render.cpu.forward import (
     pixel_centres,
 )  # fmt: skip
 from genmojo_core.render.cpu.project import GEOMETRY
-from genmojo_core.render.cpu.simd import (
-    exp2_8,
-    fma,
-    load4x2,
-    load8,
-    min8,
-    prefetch,
-    select8,
-    splat8,
-    store8,
-    sum_rows,
-    trailing_zeros,
-)  # fmt: skip
 
 MOMENTS = 6
 AHEAD = 6  # entries

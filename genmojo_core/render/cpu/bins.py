@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from genmojo_core.errors import GenmojoError
-from genmojo_core.render.cpu.cache import inlined, kernel
+from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.render.cpu.project import GEOMETRY, Ellipses, Lens
 
 TILE = 16  # pixels
@@ -41,14 +41,8 @@ def depth_order(depth: np.ndarray, box: np.ndarray) -> np.ndarray:
     Depths are positive, so their bits as unsigned integers rise with them.
     """
     keys = depth.view(np.uint32)
-    count = 0
-    order = np.empty(depth.size, np.int64)
-    for i in range(depth.size):
-        if box[i, 0] <= box[i, 1]:
-            order[count] = i
-            count += 1
-    order = order[:count]
-    other = np.empty(count, np.int64)
+    order = np.flatnonzero(box[:, 0] <= box[:, 1])
+    other = np.empty_like(order)
     starts = np.empty((1 << RADIX_BITS) + 1, np.int64)
     digit_mask = np.uint32((1 << RADIX_BITS) - 1)
     for shift in range(0, 32, RADIX_BITS):
@@ -58,9 +52,9 @@ def depth_order(depth: np.ndarray, box: np.ndarray) -> np.ndarray:
         for digit in range(1 << RADIX_BITS):
             starts[digit + 1] += starts[digit]
         for i in order:
-            digit = (keys[i] >> np.uint32(shift)) & digit_mask
-            other[starts[digit]] = i
-            starts[digit] += 1
+            place = (keys[i] >> np.uint32(shift)) & digit_mask
+            other[starts[place]] = i
+            starts[place] += 1
         order, other = other, order
     return order
 

@@ -19,10 +19,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from genmojo_core.render.cpu.bins import TILE, Bins
-from genmojo_core.render.cpu.cache import inlined, kernel
-from genmojo_core.render.cpu.project import GEOMETRY
-from genmojo_core.render.cpu.simd import (
+from genmojo_core.kernels.cache import inlined, kernel
+from genmojo_core.kernels.simd import (
     bits,
     exp2_8,
     fma,
@@ -35,6 +33,8 @@ from genmojo_core.render.cpu.simd import (
     store8,
     trailing_zeros,
 )  # fmt: skip
+from genmojo_core.render.cpu.bins import TILE, Bins
+from genmojo_core.render.cpu.project import GEOMETRY
 from genmojo_core.render.rasterizer import ALPHA_MAX, ALPHA_MIN, TRANSMITTANCE_MIN
 
 BLOCKS = 32

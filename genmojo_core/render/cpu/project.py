@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from genmojo_core.clip.cameras import View
-from genmojo_core.render.cpu.cache import inlined, kernel
+from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.render.rasterizer import ALPHA_MIN, DILATION, FRUSTUM_CLAMP
 
 LOG2_E = 1.4426950408889634

@@ -16,8 +16,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.render.cpu.bins import Bins
-from genmojo_core.render.cpu.cache import inlined, kernel
 from genmojo_core.render.cpu.project import Cloud, Lens, camera_point, footprint
 
 MOMENTS = 6

@@ -13,12 +13,12 @@ import numpy as np
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.errors import GenmojoError
+from genmojo_core.kernels.threads import run_jobs, run_ranges
 from genmojo_core.render.cpu.backward import Slopes, slope_tiles
 from genmojo_core.render.cpu.bins import TILE, Bins, bin_splats, depth_order, gather
 from genmojo_core.render.cpu.forward import Drawing, draw_tiles
 from genmojo_core.render.cpu.project import GEOMETRY, Cloud, Ellipses, Lens, lens_of, project_range
 from genmojo_core.render.cpu.project_backward import MOMENTS, Gradients, Sums, gather_gradients
-from genmojo_core.render.cpu.threads import run_jobs, run_ranges
 from genmojo_core.render.rasterizer import Rendering, Splats
 
 MAX_SLOTS = 16  # channels of one pass, depth included
@@ -137,7 +137,8 @@ def backward(drawn: Drawn, upstream: Rendering[np.ndarray]) -> tuple[Splats[np.n
         for columns, slots in one.layout.columns():
             features[:, columns] = gradients.channels[:, slots]
         pose[:3] += gradients.pose.sum(axis=0)
-    return Splats(*totals, features), pose
+    means, quats, scales, opacities = totals
+    return Splats(means, quats, scales, opacities, features), pose
 
 
 def layouts(features: int, detached: int) -> list[Layout]:

@@ -27,6 +27,11 @@ _I8 = ir.VectorType(_I32, LANES)
 _M8 = ir.VectorType(ir.IntType(1), LANES)
 
 
+def instruction(function: Callable) -> Any:
+    """Make `function(typing context, argument types)` -> (signature, code generator) callable from kernels."""
+    return intrinsic(function)
+
+
 class Float8Type(types.Type):
     """Numba type of eight float32 lanes."""
 
@@ -84,7 +89,9 @@ def _as_vector(context: Any, builder: ir.IRBuilder, kind: types.Type, value: ir.
     return _broadcast(builder, context.cast(builder, value, kind, types.float32))
 
 
-def _pointer(context: Any, builder: ir.IRBuilder, kind: Any, array: ir.Value, index: ir.Value, lanes: int) -> ir.Value:
+def _pointer(
+    context: Any, builder: ir.IRBuilder, kind: Any, array: ir.Value, index: ir.Value, lanes: int = LANES
+) -> ir.Value:
     """Address of element `index` of a flat float32 array, as a pointer to that many lanes."""
     data = context.make_array(kind)(context, builder, array).data
     return builder.bitcast(builder.gep(data, [index]), ir.VectorType(_F32, lanes).as_pointer())
@@ -144,7 +151,7 @@ def _lower_and(context: Any, builder: ir.IRBuilder, signature: Any, arguments: A
     return builder.and_(*arguments)
 
 
-@intrinsic
+@instruction
 def splat8(typingctx: Any, value: types.Type) -> Any:
     """The same number in all lanes."""
 
@@ -154,17 +161,17 @@ def splat8(typingctx: Any, value: types.Type) -> Any:
     return Float8(value), codegen
 
 
-@intrinsic
+@instruction
 def load8(typingctx: Any, array: types.Type, index: types.Type) -> Any:
     """Eight consecutive elements of a flat float32 array from `index` on."""
 
     def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        return builder.load(_pointer(context, builder, signature.args[0], *arguments, LANES), align=4)
+        return builder.load(_pointer(context, builder, signature.args[0], arguments[0], arguments[1]), align=4)
 
     return Float8(array, types.intp), codegen
 
 
-@intrinsic
+@instruction
 def store8(typingctx: Any, array: types.Type, index: types.Type, value: types.Type) -> Any:
     """Write eight consecutive elements of a flat float32 array."""
 
@@ -176,7 +183,7 @@ def store8(typingctx: Any, array: types.Type, index: types.Type, value: types.Ty
     return types.void(array, types.intp, Float8), codegen
 
 
-@intrinsic
+@instruction
 def load4x2(typingctx: Any, array: types.Type, upper: types.Type, lower: types.Type) -> Any:
     """A block of 4 x 2 pixels: four elements from `upper` on, then four from `lower` on."""
 
@@ -190,7 +197,7 @@ def load4x2(typingctx: Any, array: types.Type, upper: types.Type, lower: types.T
     return Float8(array, types.intp, types.intp), codegen
 
 
-@intrinsic
+@instruction
 def store4x2(typingctx: Any, array: types.Type, upper: types.Type, lower: types.Type, value: types.Type) -> Any:
     """Write a block of 4 x 2 pixels: lanes 0..3 from `upper` on, lanes 4..7 from `lower` on."""
 
@@ -205,7 +212,7 @@ def store4x2(typingctx: Any, array: types.Type, upper: types.Type, lower: types.
     return types.void(array, types.intp, types.intp, Float8), codegen
 
 
-@intrinsic
+@instruction
 def fma(typingctx: Any, a: types.Type, b: types.Type, c: types.Type) -> Any:
     """a b + c, with one rounding where the processor has a fused instruction."""
 
@@ -216,7 +223,7 @@ def fma(typingctx: Any, a: types.Type, b: types.Type, c: types.Type) -> Any:
     return Float8(a, b, c), codegen
 
 
-@intrinsic
+@instruction
 def min8(typingctx: Any, a: types.Type, b: types.Type) -> Any:
     """The smaller value per lane (b where a is NaN)."""
 
@@ -227,7 +234,7 @@ def min8(typingctx: Any, a: types.Type, b: types.Type) -> Any:
     return Float8(a, b), codegen
 
 
-@intrinsic
+@instruction
 def select8(typingctx: Any, mask: types.Type, a: types.Type, b: types.Type) -> Any:
     """a where the mask holds, else b."""
 
@@ -239,7 +246,7 @@ def select8(typingctx: Any, mask: types.Type, a: types.Type, b: types.Type) -> A
     return Float8(Mask8, a, b), codegen
 
 
-@intrinsic
+@instruction
 def bits(typingctx: Any, mask: types.Type) -> Any:
     """The mask as an integer: bit i is lane i; 0 where no lane holds."""
 
@@ -249,7 +256,7 @@ def bits(typingctx: Any, mask: types.Type) -> Any:
     return types.int64(Mask8), codegen
 
 
-@intrinsic
+@instruction
 def trailing_zeros(typingctx: Any, value: types.Type) -> Any:
     """Index of the lowest set bit of a non-zero int64."""
 
@@ -259,7 +266,7 @@ def trailing_zeros(typingctx: Any, value: types.Type) -> Any:
     return types.int64(types.int64), codegen
 
 
-@intrinsic
+@instruction
 def exp2_8(typingctx: Any, value: types.Type) -> Any:
     """2**x per lane for -125 <= x <= 125, relative error 2e-7.
 
@@ -281,7 +288,7 @@ def exp2_8(typingctx: Any, value: types.Type) -> Any:
     return Float8(Float8), codegen
 
 
-@intrinsic
+@instruction
 def sum_rows(typingctx: Any, array: types.Type, index: types.Type) -> Any:
     """Sums over lanes of eight vectors stored one after the other: lane i of the result is the sum of vector i."""
 
@@ -303,7 +310,7 @@ def sum_rows(typingctx: Any, array: types.Type, index: types.Type) -> Any:
     return Float8(array, types.intp), codegen
 
 
-@intrinsic
+@instruction
 def prefetch(typingctx: Any, array: types.Type, index: types.Type) -> Any:
     """Ask for the cache line of element `index` of a flat float32 array."""
 

@@ -1,0 +1,1 @@
+"""How CPU kernels are written, compiled, kept on disk and run on threads. No torch."""

@@ -1,0 +1,1 @@
+"""K-plane sampling kernels: numpy arrays in and out, no torch."""
