@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -101,6 +101,24 @@ def parse_json(text: bytes | str, where: str) -> Any:
         return json.loads(decoded, parse_constant=_no_constant, parse_float=_finite, object_pairs_hook=_no_twins)
     except (ValueError, RecursionError) as error:
         raise GenmojoError("format", f"is not valid JSON ({error})", where) from error
+
+
+def json_text(value: Any, indent: int | None = None) -> str:
+    """Strict JSON of plain data, numpy values included; numbers that are not finite (a budget without end) are null."""
+    return json.dumps(_plain(value), allow_nan=False, indent=indent)
+
+
+def _plain(value: Any) -> Any:
+    """The value in types JSON knows."""
+    if isinstance(value, Mapping):
+        return {str(k): _plain(v) for k, v in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(v) for v in value]
+    if isinstance(value, np.ndarray | np.generic):
+        return _plain(value.tolist())
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
 
 
 def _check_signature(path: str | Path) -> None:

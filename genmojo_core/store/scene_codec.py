@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -12,7 +11,7 @@ import numpy as np
 from genmojo_core.clip.cameras import Cameras, check_cameras
 from genmojo_core.conventions import normalise_quaternions
 from genmojo_core.errors import GenmojoError
-from genmojo_core.store.safe import parse_json
+from genmojo_core.store.safe import json_text, parse_json
 from genmojo_core.store.scene_file import BakedScene, SceneObject
 from genmojo_core.tracks.model import PointTracks
 
@@ -38,9 +37,9 @@ def encode(scene: BakedScene) -> dict[str, np.ndarray]:
         "/cameras/supervision/elev": np.asarray(scene.supervised[:, 0], "f4"),
         "/cameras/supervision/azim": np.asarray(scene.supervised[:, 1], "f4"),
         "/cameras/supervision/frame": np.asarray(scene.supervised[:, 2], "i4"),
-        "/config/run": _texts([_json(scene.config)]),
-        "/config/effects": _texts([_json(scene.effects)]),
-        "/config/curve": _texts([_json(scene.curve)]),
+        "/config/run": _texts([json_text(scene.config)]),
+        "/config/effects": _texts([json_text(scene.effects)]),
+        "/config/curve": _texts([json_text(scene.curve)]),
         "/metrics/name": _texts(names),
         "/metrics/value": np.array([v if math.isfinite(v) else 0.0 for v in values], "f8"),
     }
@@ -162,8 +161,8 @@ def _decode_cameras(arrays: Mapping[str, np.ndarray], frames: int) -> Cameras:
     if "/cameras/input/K" in arrays:
         width, height = (int(n) for n in arrays["/cameras/input/size"])
         near, far = (float(x) for x in arrays["/cameras/input/range"])
-        return Cameras(arrays["/cameras/input/K"].astype(np.float64),
-                       arrays["/cameras/input/world_to_camera"].astype(np.float64), (width, height), near, far)  # fmt: skip
+        poses = arrays["/cameras/input/world_to_camera"].astype(np.float64)
+        return Cameras(arrays["/cameras/input/K"].astype(np.float64), poses, (width, height), near, far)
     width, height = (int(n) for n in arrays.get("/tracks/predicted/size", np.array([1, 1])))
     focal = float(max(width, height))
     lens = np.array([[focal, 0, width / 2], [0, focal, height / 2], [0, 0, 1]])
@@ -208,24 +207,6 @@ def _texts(texts: Sequence[str]) -> np.ndarray:
 def _strings(encoded: np.ndarray) -> list[str]:
     """Texts of fixed-length UTF-8; bytes that are no UTF-8 show as replacement characters."""
     return [bytes(text).decode("utf-8", errors="replace") for text in encoded]
-
-
-def _json(value: Any) -> str:
-    """JSON text; numbers that are not finite (a budget without end) become null."""
-    return json.dumps(_plain(value), allow_nan=False)
-
-
-def _plain(value: Any) -> Any:
-    """The value in types JSON knows."""
-    if isinstance(value, Mapping):
-        return {str(k): _plain(v) for k, v in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(v) for v in value]
-    if isinstance(value, np.ndarray | np.generic):
-        return _plain(value.tolist())
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
 
 
 def _decode_json(arrays: Mapping[str, np.ndarray], path: str, where: str, kind: type) -> Any:

@@ -1,6 +1,6 @@
 """Scene files: write, read, validate and inspect `genmojo4d` HDF5 (VIEWER.md section 5.1, ARCHITECTURE.md section 6).
 
-A file is built in memory (a full disk can crash HDF5 itself, measured in RELIABILITY.md b), written beside its target, reopened,
+A file is built in memory (a full disk can crash HDF5 itself, RELIABILITY.md b), written beside its target, reopened,
 compared value by value, and only then renamed. fletcher32 plus the newer format catch every flipped bit; all texts
 have fixed length, because HDF5 keeps texts of free length in heaps without a checksum.
 """
@@ -86,7 +86,8 @@ def inspect(path: str | Path) -> dict[str, Any]:
         "format": attributes["format"], "version": attributes["version"], "generator": scene.generator,
         "created_utc": scene.created_utc, "run_uuid": scene.run_uuid, "frames": len(scene),
         "first_frame": int(scene.frame_index[0]), "last_frame": int(scene.frame_index[-1]), "fps": scene.fps,
-        "size": list(scene.cameras.size), "gaussians": len(scene.xyz), "tracks": 0 if tracks is None else len(tracks.xy),
+        "size": list(scene.cameras.size), "gaussians": len(scene.xyz),
+        "tracks": 0 if tracks is None else len(tracks.xy),
         "objects": [{"id": o.id, "name": o.name, "background": o.is_background, "gaussians": o.count}
                     for o in scene.objects],
         "bytes": Path(path).stat().st_size, "datasets": datasets, "config": scene.config, "effects": scene.effects,

@@ -1,0 +1,138 @@
+"""Pictures of a baked scene: colour, coverage, depth, labels and flow of any frame from any camera."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from genmojo_core.clip.cameras import View
+from genmojo_core.conventions import dc_to_rgb, orbit_camera
+from genmojo_core.errors import GenmojoError
+from genmojo_core.render.cpu import rasterize
+from genmojo_core.render.rasterizer import Splats
+from genmojo_core.store.scene_file import BakedScene
+
+ALPHA_FOR_DEPTH = 1e-4  # below this coverage a pixel has no depth (and no flow)
+WHITE = (1.0, 1.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Picture:
+    """One rendered frame, H x W pixels, K objects in the scene's order.
+
+    Args:
+        color: (H, W, 3) float32 premultiplied RGB, not clamped.
+        alpha: (H, W) coverage 0..1.
+        depth: (H, W) z in scene units, alpha-normalised; 0 where alpha < 1e-4.
+        labels: (H, W, K) premultiplied share of every object; sums to alpha.
+        flow: (H, W, 2) pixels to the next frame, alpha-normalised, or None.
+    """
+
+    color: np.ndarray
+    alpha: np.ndarray
+    depth: np.ndarray
+    labels: np.ndarray
+    flow: np.ndarray | None = None
+
+    def on(self, backdrop: tuple[float, float, float] | np.ndarray = WHITE) -> np.ndarray:  # (H, W, 3) float32 0..1
+        """The colour over a backdrop (one colour or an (H, W, 3) image), clamped."""
+        rest = (1.0 - self.alpha)[..., None] * np.asarray(backdrop, np.float32)
+        return np.clip(self.color + rest, 0.0, 1.0)
+
+    def straight_rgba(self) -> np.ndarray:  # (H, W, 4) uint8
+        """Colour divided by coverage, and the coverage: what PNG wants."""
+        rgb = self.color / np.maximum(self.alpha, 1e-6)[..., None]
+        rgba = np.concatenate([np.clip(rgb, 0, 1), np.clip(self.alpha, 0, 1)[..., None]], axis=-1)
+        rgba[self.alpha < 0.5 / 255] = 0
+        return np.round(rgba * 255).astype(np.uint8)
+
+    def instance(self, threshold: float = 0.5) -> np.ndarray:  # (H, W) int64, -1 = nothing there
+        """Position (in the scene's objects) of the object with the largest share, where alpha > threshold."""
+        if self.labels.shape[-1] == 0:
+            return np.full(self.alpha.shape, -1)
+        return np.where(self.alpha > threshold, np.argmax(self.labels, axis=-1), -1)
+
+
+@dataclass(frozen=True)
+class Look:
+    """What to draw: everything or the objects alone, with the learned colour change or without, flow to which view.
+
+    Args:
+        objects_only: leave the background out.
+        color_change: False drops the change of colour over time (to see how much of the fit it explains).
+        flow_to: camera of the next frame, or None for no flow.
+    """
+
+    objects_only: bool = False
+    color_change: bool = True
+    flow_to: View | None = None
+
+
+def render_frame(scene: BakedScene, t: int, view: View, look: Look = Look()) -> Picture:  # noqa: B008 - frozen
+    """Draw frame t (0..T-1) from a camera.
+
+    Flow is the projection at t + 1 through `look.flow_to` minus the one at t through `view` (last frame: no motion of
+    objects). Raises GenmojoError("empty") for a file without Gaussians, "argument" for a frame that is not there.
+    """
+    if len(scene.xyz) == 0:
+        raise GenmojoError("empty", "holds tracks but no Gaussians", "scene", "give a scene written by optimize")
+    if not 0 <= t < len(scene):
+        raise GenmojoError("argument", f"there is no frame {t}, the scene has {len(scene)}", "scene")
+    frame = scene.frame(t)
+    owner = frame.object_index
+    background = np.array([o.is_background for o in scene.objects])
+    keep = ~background[owner] if look.objects_only else np.ones(len(owner), bool)
+    rgb = frame.rgb if look.color_change or scene.d_dc is None else _constant_color(scene)
+    parts = [rgb, np.eye(len(scene.objects), dtype=np.float32)[owner]]
+    if look.flow_to is not None:
+        after = scene.frame(min(t + 1, len(scene) - 1))
+        parts.append(_pixels(after.means, look.flow_to) - _pixels(frame.means, view))
+    features = np.concatenate(parts, axis=1).astype(np.float32)
+    splats = Splats(frame.means[keep], frame.quats[keep], frame.scales[keep], frame.opacities[keep], features[keep])
+    drawn = rasterize(splats, view)
+    count = 3 + len(scene.objects)
+    seen = drawn.alpha >= ALPHA_FOR_DEPTH
+    share = np.where(seen, drawn.alpha, 1.0)
+    flow = None
+    if look.flow_to is not None:
+        flow = np.where(seen[..., None], drawn.features[..., count:] / share[..., None], 0)
+    depth = np.where(seen, drawn.depth / share, 0.0).astype(np.float32)
+    return Picture(drawn.features[..., :3], drawn.alpha, depth, drawn.features[..., 3:count], flow)
+
+
+def orbit_target(scene: BakedScene) -> np.ndarray:  # (3,) world
+    """What views turn about: the median of the objects' Gaussians over all frames (of everything if no object)."""
+    background = np.array([o.is_background for o in scene.objects])
+    points = []
+    for t in range(len(scene)):
+        frame = scene.frame(t)
+        rows = ~background[frame.object_index]
+        points.append(frame.means[rows] if rows.any() else frame.means)
+    return np.median(np.concatenate(points), axis=0).astype(np.float64)
+
+
+def orbit_view(scene: BakedScene, t: int, elevation: float, azimuth: float, target: np.ndarray) -> View:
+    """The input camera of frame t turned rigidly by (elevation, azimuth) degrees about a target (3,)."""
+    view = scene.cameras.view(t)
+    if elevation == 0 and azimuth == 0:
+        return view
+    return view.with_pose(orbit_camera(view.world_to_camera, target, scene.world_up, elevation, azimuth))
+
+
+def short_side_size(size: tuple[int, int], short_side: int) -> tuple[int, int]:
+    """(width, height) of an image of `size` with its short side brought to `short_side` pixels."""
+    scale = short_side / min(size)
+    return max(1, round(size[0] * scale)), max(1, round(size[1] * scale))
+
+
+def _constant_color(scene: BakedScene) -> np.ndarray:
+    """Colours without their change over time."""
+    return dc_to_rgb(scene.dc)
+
+
+def _pixels(means: np.ndarray, view: View) -> np.ndarray:  # (N, 3) world -> (N, 2) px
+    """Projection of centres; centres nearer than the near plane are projected as if they lay on it."""
+    camera = means @ view.world_to_camera[:3, :3].T + view.world_to_camera[:3, 3]
+    z = np.maximum(camera[:, 2:], view.near)
+    return camera[:, :2] / z * [view.fx, view.fy] + [view.cx, view.cy]

@@ -1,0 +1,204 @@
+"""Point tracks out of a 4D scene: a query is carried by the Gaussians that show at its pixel (METHOD.md section 7).
+
+The released code follows one nearest centre and drops queries without one near. Here a query's surface point is
+expressed in the local frame of every Gaussian that contributes to its pixel (weights alpha T, its own instance only),
+carried by each, and blended; no query is dropped. Every Gaussian turns about its own centre, so rotation carries
+offsets too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from genmojo_core.clip.cameras import View
+from genmojo_core.conventions import quaternion_to_matrix
+from genmojo_core.errors import GenmojoError
+from genmojo_core.render.cpu import rasterize
+from genmojo_core.render.rasterizer import ALPHA_MAX, ALPHA_MIN, DILATION, FRUSTUM_CLAMP, Splats
+from genmojo_core.store.scene_file import BakedScene, Frame
+from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE, PointTracks
+
+CARRIERS = 16  # Gaussians that carry one query at most
+DEPTH_TOLERANCE = 0.10  # relative: farther behind the rendered surface is hidden
+TEST_SHORT_SIDE = 384  # pixels at most of the images in which visibility is tested
+_SEEN_ALPHA = 0.5  # coverage from which a pixel shows something
+
+
+@dataclass(frozen=True)
+class Carriers:
+    """What carries N queries: up to C Gaussians each.
+
+    rows (N, C) Gaussian indices, weights (N, C) summing to 1, offsets (N, C, 3) of the surface point from each centre
+    in the Gaussian's local frame (turned back, scene units), object (N,) position in the scene's objects.
+    """
+
+    rows: np.ndarray
+    weights: np.ndarray
+    offsets: np.ndarray
+    object: np.ndarray
+
+
+def track(
+    scene: BakedScene,
+    t: np.ndarray,  # (N,) frame positions
+    xy: np.ndarray,  # (N, 2) raster px of the clip's source
+    progress: Callable[[float], None] | None = None,
+) -> PointTracks:
+    """Tracks of N queries over all frames, in source pixels, with world positions and the owner's id.
+
+    A point is visible where its depth is within 10 % of the alpha-normalised rendered depth (or before it) and the
+    pixel shows its instance; outside the picture it is OUT_OF_VIEW. In its own query frame it is the query itself.
+
+    Raises GenmojoError: "empty" for a file without Gaussians or without queries, "argument" for a query outside the
+    frames or the picture.
+    """
+    t, xy = np.asarray(t, np.int64), np.asarray(xy, np.float64)
+    _check_queries(scene, t, xy)
+    carriers = _carriers(scene, t, xy)
+    positions, states, world = [], [], []
+    for i in range(len(scene)):
+        frame = scene.frame(i)
+        points = _carried(carriers, scene, frame, i, t)
+        pixels, depth = project(points, scene.cameras.view(i))
+        states.append(_states(scene, frame, i, carriers.object, pixels, depth))
+        positions.append(pixels)
+        world.append(points)
+        if progress is not None:
+            progress((i + 1) / len(scene))
+    everything, state = np.stack(positions, axis=1), np.stack(states, axis=1)
+    own = np.arange(len(t)), t
+    everything[own], state[own] = xy, VISIBLE
+    ids = np.array([o.id for o in scene.objects], np.int64)
+    return PointTracks(everything.astype(np.float32), state, ids[carriers.object], scene.cameras.size,
+                       np.stack(world, axis=1).astype(np.float32))  # fmt: skip
+
+
+def project(points: np.ndarray, view: View) -> tuple[np.ndarray, np.ndarray]:  # (N, 3) -> (N, 2) px, (N,) z
+    """Raster pixels and depths of world points; behind the camera the pixel is that of the near plane."""
+    camera = points @ view.world_to_camera[:3, :3].T + view.world_to_camera[:3, 3]
+    z = np.maximum(camera[:, 2], view.near)
+    return camera[:, :2] / z[:, None] * [view.fx, view.fy] + [view.cx, view.cy], camera[:, 2]
+
+
+def _check_queries(scene: BakedScene, t: np.ndarray, xy: np.ndarray) -> None:
+    """One sentence for what cannot be tracked."""
+    if len(scene.xyz) == 0:
+        raise GenmojoError("empty", "holds no Gaussians to track with", "scene", "give a scene written by optimize")
+    if len(t) == 0 or xy.shape != (len(t), 2):
+        raise GenmojoError("empty", "there is no query", "queries", "give t (N,) and xy (N, 2)")
+    if (t < 0).any() or (t >= len(scene)).any():
+        raise GenmojoError("argument", f"asks at frame {t[(t < 0) | (t >= len(scene))][0]}, the scene has frames 0 to "
+                           f"{len(scene) - 1}", "queries")  # fmt: skip
+    outside = (xy < 0).any(axis=1) | (xy > np.array(scene.cameras.size)).any(axis=1)
+    if outside.any():
+        raise GenmojoError("argument", f"asks at {xy[outside][0].round(1).tolist()}, outside the "
+                           f"{scene.cameras.size[0]} x {scene.cameras.size[1]} picture", "queries",
+                           "give raster pixels of the clip")  # fmt: skip
+
+
+def _carriers(scene: BakedScene, t: np.ndarray, xy: np.ndarray) -> Carriers:
+    """Find every query's instance, contributors and surface point in its own frame."""
+    count = min(CARRIERS, len(scene.xyz))
+    rows, weights = np.zeros((len(t), count), np.int64), np.zeros((len(t), count))
+    offsets, owner = np.zeros((len(t), count, 3)), np.zeros(len(t), np.int64)
+    for i in np.unique(t):
+        frame, view = scene.frame(int(i)), scene.cameras.view(int(i))
+        means, conics, depth = _project_splats(frame, view)
+        turns = quaternion_to_matrix(frame.quats.astype(np.float64))
+        camera_to_world = np.linalg.inv(view.world_to_camera)
+        for n in np.flatnonzero(t == i):
+            share = _contributions(xy[n], means, conics, depth, frame.opacities)
+            rows[n], weights[n], owner[n] = _choose(share, frame, xy[n], means, depth, count)
+            z = float(weights[n] @ depth[rows[n]])
+            ray = np.array([(xy[n, 0] - view.cx) / view.fx, (xy[n, 1] - view.cy) / view.fy, 1.0])
+            point = camera_to_world[:3, :3] @ (ray * z) + camera_to_world[:3, 3]
+            away = point - frame.means[rows[n]]
+            offsets[n] = np.einsum("cji,cj->ci", turns[rows[n]], away)
+    return Carriers(rows, weights, offsets, owner)
+
+
+def _project_splats(frame: Frame, view: View) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """EWA projection (rasterizer.py): means (N, 2) px, conics (N, 3) as (a, b, c), depth (N,); far depth if culled."""
+    rotation = view.world_to_camera[:3, :3]
+    camera = frame.means @ rotation.T + view.world_to_camera[:3, 3]
+    behind = camera[:, 2] <= view.near
+    z = np.where(behind, 1.0, camera[:, 2])
+    extent, centre, focal = np.array([view.width, view.height]), [view.cx, view.cy], [view.fx, view.fy]
+    margin = (FRUSTUM_CLAMP - 1) / 2 * extent
+    slope = np.clip(camera[:, :2] / z[:, None], -(centre + margin) / focal, (extent - centre + margin) / focal)
+    jacobian = np.zeros((len(z), 2, 3))
+    jacobian[:, 0, 0], jacobian[:, 1, 1] = view.fx / z, view.fy / z
+    jacobian[:, 0, 2], jacobian[:, 1, 2] = -view.fx * slope[:, 0] / z, -view.fy * slope[:, 1] / z
+    axes = quaternion_to_matrix(frame.quats.astype(np.float64)) * frame.scales[:, None, :]
+    spread = jacobian @ rotation @ axes
+    covariance = spread @ spread.transpose(0, 2, 1) + DILATION * np.eye(2)
+    inverse = np.linalg.inv(covariance)
+    conics = np.stack([inverse[:, 0, 0], inverse[:, 0, 1], inverse[:, 1, 1]], axis=-1)
+    pixels = camera[:, :2] / z[:, None] * [view.fx, view.fy] + [view.cx, view.cy]
+    return np.where(behind[:, None], 1e9, pixels), conics, np.where(behind, np.inf, camera[:, 2])
+
+
+def _contributions(
+    pixel: np.ndarray, means: np.ndarray, conics: np.ndarray, depth: np.ndarray, opacities: np.ndarray
+) -> np.ndarray:  # (N,) alpha T of every Gaussian at a pixel
+    """Front-to-back blending weights at one place of the picture."""
+    dx, dy = (pixel - means).T
+    power = 0.5 * (conics[:, 0] * dx * dx + conics[:, 2] * dy * dy) + conics[:, 1] * dx * dy
+    alpha = np.minimum(ALPHA_MAX, opacities * np.exp(-np.minimum(power, 50.0)))
+    hit = np.flatnonzero((alpha >= ALPHA_MIN) & np.isfinite(depth))
+    hit = hit[np.argsort(depth[hit], kind="stable")]
+    through = np.cumprod(1.0 - alpha[hit])
+    share = np.zeros(len(means))
+    share[hit] = alpha[hit] * np.concatenate([[1.0], through[:-1]])[: len(hit)]
+    return share
+
+
+def _choose(
+    share: np.ndarray, frame: Frame, pixel: np.ndarray, means: np.ndarray, depth: np.ndarray, count: int
+) -> tuple[np.ndarray, np.ndarray, int]:
+    """The instance with the largest share, its strongest Gaussians and their weights.
+
+    Where nothing shows, the nearest centre on the picture decides and carries alone.
+    """
+    owner = frame.object_index
+    if share.sum() > 0:
+        instance = int(np.argmax(np.bincount(owner, weights=share)))
+        own = np.where(owner == instance, share, 0.0)
+        rows = np.argsort(-own, kind="stable")[:count]
+        return rows, own[rows] / own[rows].sum(), instance
+    distance = np.where(np.isfinite(depth), np.linalg.norm(means - pixel, axis=1), np.inf)
+    nearest = int(np.argmin(distance))
+    weights = np.zeros(count)
+    weights[0] = 1.0
+    return np.full(count, nearest), weights, int(owner[nearest])
+
+
+def _carried(carriers: Carriers, scene: BakedScene, frame: Frame, i: int, t: np.ndarray) -> np.ndarray:  # (N, 3)
+    """World position of every query's surface point in frame i; offsets grow with the object's placement scale."""
+    turns = quaternion_to_matrix(frame.quats[carriers.rows].astype(np.float64))
+    size = np.cbrt(np.linalg.det(scene.object_to_world[..., :3].astype(np.float64)))  # (T, K)
+    growth = size[i, carriers.object] / size[t, carriers.object]
+    moved = frame.means[carriers.rows] + growth[:, None, None] * np.einsum("ncij,ncj->nci", turns, carriers.offsets)
+    return np.einsum("nc,nci->ni", carriers.weights, moved)
+
+
+def _states(
+    scene: BakedScene, frame: Frame, i: int, owner: np.ndarray, pixels: np.ndarray, depth: np.ndarray
+) -> np.ndarray:  # (N,) uint8
+    """VISIBLE, OCCLUDED or OUT_OF_VIEW of points at `pixels` (N, 2) and `depth` (N,) in frame i."""
+    view = scene.cameras.view(i)
+    scale = min(1.0, TEST_SHORT_SIDE / min(view.width, view.height))
+    small = view.resized(max(1, round(view.width * scale)), max(1, round(view.height * scale)))
+    labels = np.eye(len(scene.objects), dtype=np.float32)[frame.object_index]
+    drawn = rasterize(Splats(frame.means, frame.quats, frame.scales, frame.opacities, labels), small)
+    outside = (pixels < 0).any(axis=1) | (pixels >= [view.width, view.height]).any(axis=1) | (depth <= view.near)
+    place = np.floor(pixels * [small.width / view.width, small.height / view.height])
+    column, row = np.clip(place, 0, [small.width - 1, small.height - 1]).astype(np.int64).T
+    alpha = drawn.alpha[row, column]
+    surface = drawn.depth[row, column] / np.maximum(alpha, 1e-4)
+    shown = (np.argmax(drawn.features[row, column], axis=1) == owner) & (alpha > _SEEN_ALPHA)
+    near = depth <= surface * (1 + DEPTH_TOLERANCE)
+    return np.where(outside, OUT_OF_VIEW, np.where(shown & near, VISIBLE, OCCLUDED)).astype(np.uint8)
