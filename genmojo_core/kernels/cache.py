@@ -1,18 +1,88 @@
-"""Where compiled kernels live, and how they are declared."""
+"""Where compiled kernels live, and how they are declared.
+
+numba keeps compiled code on disk but judges its age by the kernel's own file only: it would go on using code made with
+an older instruction (simd.py), an older inlined helper or an older constant. So the folder is named by a hash of every
+source a kernel can contain, and of what compiles it; any change means another folder and a fresh compilation.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import hashlib
+import os
+import platform
+import sys
+from collections.abc import Callable, Iterable
+from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
+import llvmlite
+import llvmlite.binding
 import numba
+
+PACKAGE = Path(__file__).resolve().parents[1]
+SOURCES = ("kernels", "render/cpu", "scene/planes_cpu", "render/rasterizer.py")  # all that ends up in kernels
 
 
 def kernel(function: Callable) -> Any:
-    """Compile on first call, without the interpreter lock, kept on disk."""
-    return numba.njit(nogil=True, cache=True, error_model="numpy")(function)
+    """Compile on first call, without the interpreter lock, kept on disk where a folder can be written."""
+    folder = cache_folder()
+    if folder is None:
+        return numba.njit(nogil=True, error_model="numpy")(function)
+    before = numba.config.CACHE_DIR
+    numba.config.CACHE_DIR = str(folder)  # read while the function is declared, so it can be put back at once
+    try:
+        return numba.njit(nogil=True, cache=True, error_model="numpy")(function)
+    finally:
+        numba.config.CACHE_DIR = before
 
 
 def inlined(function: Callable) -> Any:
-    """A piece of a kernel: always inlined by LLVM, so tuples and vectors never touch memory."""
+    """A piece of a kernel: always inlined by LLVM, so that tuples and vectors stay in registers."""
     return numba.njit(nogil=True, forceinline=True, error_model="numpy")(function)
+
+
+def fingerprint(package: Path = PACKAGE) -> str:
+    """Hexadecimal name of this state of the kernels: sources, numba, llvmlite, Python, processor."""
+    digest = hashlib.sha256()
+    for path in _files(package):
+        digest.update(path.relative_to(package).as_posix().encode() + b"\0")
+        digest.update(path.read_bytes() + b"\0")
+    features = llvmlite.binding.get_host_cpu_features().flatten()
+    machine = (numba.__version__, llvmlite.__version__, platform.python_version(), platform.machine(),
+               llvmlite.binding.get_host_cpu_name(), features)  # fmt: skip
+    digest.update("\0".join(machine).encode())
+    return digest.hexdigest()[:24]
+
+
+@lru_cache(maxsize=1)
+def cache_folder() -> Path | None:
+    """The folder of compiled kernels, made if need be; None where the user's cache folder cannot be written."""
+    folder = user_cache() / "genmojo" / "kernels" / fingerprint()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return None
+    return folder if os.access(folder, os.W_OK) else None
+
+
+def is_cold() -> bool:
+    """True where nothing is compiled yet on this machine: the first use will take some seconds."""
+    folder = cache_folder()
+    return folder is None or next(folder.rglob("*.nbi"), None) is None
+
+
+def user_cache() -> Path:
+    """The user's cache folder by the custom of the system."""
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Caches"
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+
+
+def _files(package: Path) -> Iterable[Path]:
+    """The source files of `SOURCES` in a fixed order."""
+    for name in SOURCES:
+        place = package / name
+        yield from [place] if place.suffix == ".py" else sorted(place.glob("*.py"))

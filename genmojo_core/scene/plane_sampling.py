@@ -2,7 +2,8 @@
 
 Planes are stored with the channels last. A coordinate in -1..1 runs from the first node to the last (align_corners);
 outside, the border's value holds. Coordinates and times get no gradient: points are canonical. On the CPU, with a
-multiple of eight float32 channels, fused kernels do the work; everything else takes plain torch of the same meaning.
+multiple of eight float32 channels, fused kernels do the work (imported where they are used, so that a machine without
+numba can run the rest); everything else takes plain torch of the same meaning.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from typing import Any
 import torch
 from torch import Tensor
 
-from genmojo_core.scene.planes_cpu.sampling import space_features, space_gradient, time_features, time_gradient
+from genmojo_core.kernels.probe import kernels_work
 
 PAIRS = ((0, 1), (0, 2), (1, 2))  # coordinates along columns and rows of each space plane
 
@@ -77,7 +78,8 @@ def sample_time_planes_torch(planes: Tensor, coords: Tensor, times: Tensor) -> T
 
 def _has_kernel(planes: Tensor) -> bool:
     """The fused kernels take float32 on the CPU with a multiple of eight channels."""
-    return planes.device.type == "cpu" and planes.dtype == torch.float32 and planes.shape[-1] % 8 == 0
+    fits = planes.device.type == "cpu" and planes.dtype == torch.float32 and planes.shape[-1] % 8 == 0
+    return fits and kernels_work()
 
 
 def _cells(positions: Tensor, nodes: int) -> tuple[Tensor, Tensor, Tensor]:
@@ -93,6 +95,8 @@ class _Space(torch.autograd.Function):
     @staticmethod
     def forward(ctx: Any, planes: Tensor, coords: Tensor) -> Tensor:
         """Read; keeps the arrays for backward."""
+        from genmojo_core.scene.planes_cpu.sampling import space_features
+
         arrays = planes.detach().contiguous().numpy(), coords.numpy()
         ctx.save_for_backward(planes, coords)
         return torch.from_numpy(space_features(*arrays))
@@ -101,6 +105,8 @@ class _Space(torch.autograd.Function):
     @torch.autograd.function.once_differentiable
     def backward(ctx: Any, upstream: Tensor) -> tuple[Any, ...]:
         """Gradient of the planes."""
+        from genmojo_core.scene.planes_cpu.sampling import space_gradient
+
         planes, coords = ctx.saved_tensors
         arrays = planes.detach().contiguous().numpy(), coords.numpy(), upstream.contiguous().numpy()
         return torch.from_numpy(space_gradient(*arrays)), None
@@ -112,6 +118,8 @@ class _Time(torch.autograd.Function):
     @staticmethod
     def forward(ctx: Any, planes: Tensor, coords: Tensor, times: Tensor) -> Tensor:
         """Read; keeps the planes collapsed to lines for backward."""
+        from genmojo_core.scene.planes_cpu.sampling import time_features
+
         features, lines = time_features(planes.detach().contiguous().numpy(), coords.numpy(), times.numpy())
         ctx.lines, ctx.shape = lines, tuple(planes.shape)
         ctx.save_for_backward(coords, times)
@@ -121,6 +129,8 @@ class _Time(torch.autograd.Function):
     @torch.autograd.function.once_differentiable
     def backward(ctx: Any, upstream: Tensor) -> tuple[Any, ...]:
         """Gradient of the planes."""
+        from genmojo_core.scene.planes_cpu.sampling import time_gradient
+
         coords, times = ctx.saved_tensors
         gradient = time_gradient(ctx.shape, ctx.lines, coords.numpy(), times.numpy(), upstream.contiguous().numpy())
         return torch.from_numpy(gradient), None, None
