@@ -1,0 +1,97 @@
+"""Values on the command line, parsed with one sentence per fault."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+from typing import Any, NoReturn
+
+from genmojo_core.errors import GenmojoError
+
+
+class Parser(argparse.ArgumentParser):
+    """argparse whose faults are GenmojoErrors: one sentence, no usage page."""
+
+    def error(self, message: str) -> NoReturn:
+        """Raise GenmojoError("argument")."""
+        raise GenmojoError("argument", message, self.prog, f"see {self.prog} --help")
+
+
+def frame_range(text: str) -> tuple[int, int | None]:
+    """ "A:B", ":B", "A:" or "A" as (first, end); end None for all. Positions in the source, B not included.
+
+    Raises GenmojoError("argument").
+    """
+    match = re.fullmatch(r"(\d*):(\d*)|(\d+)", text.strip())
+    if match is None or text.strip() == ":":
+        raise GenmojoError("argument", f"'{text}' is no range of frames", "--frames", "write for example 0:24")
+    if match[3] is not None:
+        return int(match[3]), int(match[3]) + 1
+    first, end = int(match[1] or 0), int(match[2]) if match[2] else None
+    if end is not None and end <= first:
+        raise GenmojoError("argument", f"'{text}' holds no frame", "--frames", "write for example 0:24")
+    return first, end
+
+
+def seconds(text: str) -> float:
+    """ "60s", "2m", "1.5h" or "60" as seconds. Raises GenmojoError("argument") unless positive."""
+    match = re.fullmatch(r"(\d+(?:\.\d*)?)\s*(s|m|min|h)?", text.strip())
+    value = float(match[1]) * {"m": 60, "min": 60, "h": 3600}.get(match[2] or "s", 1) if match else 0.0
+    if value <= 0:
+        raise GenmojoError("argument", f"'{text}' is no time", "--budget", "write for example 60s or 2m")
+    return value
+
+
+def names(text: str) -> tuple[str, ...]:
+    """ "a,b" as ("a", "b")."""
+    return tuple(part.strip() for part in text.split(",") if part.strip())
+
+
+def box(text: str) -> tuple[int, tuple[float, float, float, float]]:
+    """ "FRAME:X0,Y0,X1,Y1" as (frame, (x0, y0, x1, y1)), source pixels. Raises GenmojoError("argument")."""
+    match = re.fullmatch(r"(\d+):([^,]+),([^,]+),([^,]+),([^,]+)", text.strip())
+    try:
+        corners = tuple(float(match[i]) for i in range(2, 6)) if match else ()
+    except ValueError:
+        corners = ()
+    if match is None or len(corners) != 4 or not all(map(math.isfinite, corners)):
+        raise GenmojoError("argument", f"'{text}' is no box", "--box", "write FRAME:X0,Y0,X1,Y1 in pixels of the clip")
+    x0, y0, x1, y1 = corners
+    if x1 <= x0 or y1 <= y0:
+        raise GenmojoError("argument", f"the box '{text}' has no area", "--box", "give X0 < X1 and Y0 < Y1")
+    return int(match[1]), (x0, y0, x1, y1)
+
+
+def add_clip_options(parser: argparse.ArgumentParser) -> None:
+    """Options that say how a clip is read."""
+    parser.add_argument("clip", metavar="CLIP", help="folder of frames, DAVIS/MOSE/GenMOJO folder, or a video")
+    parser.add_argument("--frames", type=frame_range, metavar="A:B", help="positions A to B-1 of the source")
+    parser.add_argument("--ignore", type=names, default=(), metavar="a,b", help="channels not to read: depth, cameras, "
+                        "flow, background, tracks")  # fmt: skip
+    parser.add_argument("--pixel-aspect", type=float, metavar="A", help="width / height of one source pixel as shown")
+    parser.add_argument("--box", type=box, action="append", default=[], metavar="FRAME:X0,Y0,X1,Y1",
+                        help="one object in a clip without masks; may be given several times")  # fmt: skip
+    parser.add_argument("--effects", default="auto", metavar="auto|+a,-b", help="switch effects on or off by hand")
+
+
+def add_config_options(parser: argparse.ArgumentParser) -> None:
+    """Options that make a run configuration."""
+    parser.add_argument(
+        "--preset", default="standard", help="draft, standard or full (numbers: genmojo_core/config.py)"
+    )
+    parser.add_argument("--size", type=int, metavar="PX", help="short side of the frames while optimising")
+    parser.add_argument("--budget", type=seconds, metavar="60s", help="end after this time with what stands")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--device", default="auto", help="auto, cpu or cuda")
+    parser.add_argument("--prior", default="none", help="view prior: none, embedded or zero123:DIR")
+
+
+def config_changes(args: argparse.Namespace) -> dict[str, Any]:
+    """What the options change in a preset."""
+    changes: dict[str, Any] = {"seed": args.seed, "device": args.device, "prior": args.prior, "ignore": args.ignore}
+    if args.size is not None:
+        changes["short_side"] = args.size
+    if args.budget is not None:
+        changes["budget_seconds"] = args.budget
+    return changes

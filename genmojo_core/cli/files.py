@@ -1,0 +1,75 @@
+"""`genmojo inspect` and `genmojo validate`: what is in a file, and whether it can be trusted."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from genmojo_core.errors import GenmojoError
+
+
+def add_commands(commands: Any) -> None:
+    """Add `inspect` and `validate`."""
+    inspect = commands.add_parser("inspect", help="what a scene, a tracks npz or a clip holds")
+    inspect.add_argument("file", metavar="FILE")
+    inspect.set_defaults(run=run_inspect)
+    validate = commands.add_parser("validate", help="check a scene or tracks file, naming every fault")
+    validate.add_argument("file", metavar="FILE")
+    validate.set_defaults(run=run_validate)
+
+
+def run_inspect(args: argparse.Namespace) -> dict[str, Any]:
+    """Describe a file by what it is: npz of tracks, clip (folder or video), else a scene."""
+    from genmojo_core.store import npz, scene_hdf5
+
+    kind = _kind(args.file)
+    if kind == "tracks":
+        tracks = npz.read_tracks(args.file)
+        return {"kind": kind, "tracks": len(tracks.xy), "frames": tracks.xy.shape[1], "size": list(tracks.size),
+                "objects": sorted({int(i) for i in tracks.object}), "visible_share": float(tracks.visible.mean()),
+                "has_xyz": tracks.xyz is not None}  # fmt: skip
+    if kind == "clip":
+        return {"kind": kind, **_clip(args.file)}
+    return {"kind": kind, **scene_hdf5.inspect(args.file)}
+
+
+def run_validate(args: argparse.Namespace) -> dict[str, Any]:
+    """All faults; exit 2 if there is one."""
+    from genmojo_core.store import npz, scene_hdf5
+
+    if _kind(args.file) == "tracks":
+        try:
+            npz.read_tracks(args.file)
+            faults = []
+        except GenmojoError as error:
+            faults = [error.sentence()]
+    else:
+        faults = scene_hdf5.validate(args.file)
+    return {"file": args.file, "valid": not faults, "faults": faults, "exit_code": 2 if faults else 0}
+
+
+def _kind(path: str) -> str:
+    """By content: an npz is a zip file; folders and everything that is no HDF5 file and no zip are clips."""
+    file = Path(path)
+    if not file.exists():
+        raise GenmojoError("io", "does not exist", path, "check the name")
+    if file.is_dir():
+        return "clip"
+    with open(file, "rb") as stream:
+        head = stream.read(8)
+    if head.startswith(b"PK"):
+        return "tracks"
+    return "clip" if file.suffix.lower() in (".mp4", ".mov", ".mkv", ".webm", ".avi", ".png", ".jpg") else "scene"
+
+
+def _clip(path: str) -> dict[str, Any]:
+    """A clip, read small."""
+    from genmojo_core.clip import folders
+
+    clip = folders.read(path, short_side=64)
+    channels = ("masks", "depth", "cameras", "flow", "background", "tracks")
+    return {"name": clip.name, "frames": len(clip), "size": list(clip.source_size), "pixel_aspect": clip.pixel_aspect,
+            "objects": [{"id": int(i), "name": n} for i, n in zip(clip.object_ids, clip.object_names, strict=True)],
+            "seconds": float(clip.seconds[-1]),
+            "channels": [c for c in channels if getattr(clip, c) is not None]}  # fmt: skip

@@ -1,0 +1,206 @@
+"""`genmojo effects` and `genmojo optimize`: a clip in, its effect plan or its 4D scene out."""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING, Any
+
+from genmojo_core.cli import arguments
+from genmojo_core.cli.output import progress, say
+from genmojo_core.config import RunConfig, preset
+from genmojo_core.errors import GenmojoError
+
+if TYPE_CHECKING:
+    from genmojo_core.clip.clip import Clip
+    from genmojo_core.effects.plan import EffectPlan
+    from genmojo_core.events import Event
+    from genmojo_core.optimise.run import Run
+    from genmojo_core.store.scene_file import BakedScene
+
+
+def add_commands(commands: Any) -> None:
+    """Add `effects` and `optimize`."""
+    effects = commands.add_parser("effects", help="what a clip calls for, and why")
+    arguments.add_clip_options(effects)
+    arguments.add_config_options(effects)
+    effects.set_defaults(run=run_effects)
+    optimize = commands.add_parser("optimize", help="clip to 4D scene")
+    arguments.add_clip_options(optimize)
+    arguments.add_config_options(optimize)
+    optimize.add_argument("-o", "--output", required=True, metavar="scene.h5")
+    optimize.add_argument("--run-dir", metavar="DIR", help="where checkpoints go")
+    optimize.add_argument("--resume", action="store_true", help="go on from the run folder's checkpoint")
+    optimize.set_defaults(run=run_optimize)
+
+
+def run_effects(args: argparse.Namespace) -> dict[str, Any]:
+    """The effect plan of a clip."""
+    config = preset(args.preset, **arguments.config_changes(args))
+    clip, plan = _prepare(args, config)
+    return {"clip": clip.name, "frames": len(clip), "effects": plan.to_json(), "guesses": list(clip.guesses)}
+
+
+def run_optimize(args: argparse.Namespace) -> dict[str, Any]:
+    """Optimise, write the scene, measure it. Ctrl-C ends after the present step and keeps the work (exit 130)."""
+    from genmojo_core.store.atomic import check_writable
+
+    config = preset(args.preset, **arguments.config_changes(args))
+    check_writable(args.output)
+    start = time.monotonic()
+    clip, plan = _prepare(args, config)
+    job = Job(args.output, args.clip, start, args.frames, args.run_dir, args.resume)
+    return optimize_clip(clip, plan, config, job)
+
+
+@dataclass(frozen=True)
+class Job:
+    """What a run is for.
+
+    Args:
+        output: scene file to write. source: the clip's path and frames: its positions, read again for measuring.
+        start: time.monotonic() when the command began.
+        run_dir: where checkpoints go, or None. resume: go on from the one there.
+    """
+
+    output: str
+    source: str
+    start: float
+    frames: tuple[int, int | None] | None = None
+    run_dir: str | None = None
+    resume: bool = False
+
+
+def optimize_clip(clip: Clip, plan: EffectPlan, config: RunConfig, job: Job) -> dict[str, Any]:
+    """Run to the end or to Ctrl-C, write the scene, measure it; returns what `optimize --json` prints."""
+    from genmojo_core.optimise.run import Run
+    from genmojo_core.store import scene_hdf5
+
+    run = Run(clip, plan, config, run_dir=job.run_dir, resume=job.resume)
+    watched = _Watched()
+    with _stop_on_signal(run) as interrupted, progress("optimising") as tell:
+        for event in run:
+            watched.hear(event, tell)
+    if watched.first_scene is None:
+        raise watched.fault or GenmojoError("empty", "was interrupted before the first scene stood", job.output,
+                                            "let it run a little longer")  # fmt: skip
+    scene = run.bake()
+    scene_hdf5.write(scene, job.output)
+    if watched.fault is not None:
+        say(f"The scene up to step {watched.step} was kept in {job.output}.")
+        raise watched.fault
+    result: dict[str, Any] = {
+        "seconds": time.monotonic() - job.start, "steps": watched.step, "psnr": None, "psnr_full": None,
+        "peak_mb": peak_mb(), "effects": plan.to_json(), "path": str(job.output), "curve": scene.curve,
+        "guesses": list(clip.guesses), "gaussians": len(scene.xyz), "optimise_seconds": watched.seconds,
+        "cpu_seconds": watched.cpu_seconds, "first_scene_seconds": watched.first_scene, "reason": watched.reason,
+        "frames": len(clip), "warnings": watched.warnings,
+    }  # fmt: skip
+    if interrupted():
+        say(f"Interrupted; what stood was written to {job.output}.")
+        return result | {"exit_code": 130}
+    return result | _measured(scene, clip, job)
+
+
+def peak_mb() -> float:
+    """Largest resident memory of this process so far, in MiB; 0 where the system does not tell."""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return 0.0
+    most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return most / (1 << 20) if sys.platform == "darwin" else most / 1024
+
+
+def _prepare(args: argparse.Namespace, config: RunConfig) -> tuple[Clip, EffectPlan]:
+    """Read the clip at the size to optimise, estimate what it lacks, decide the effects."""
+    from genmojo_core.clip import folders
+    from genmojo_core.effects import decide
+    from genmojo_core.estimate.complete import complete
+
+    overrides = {} if args.effects == "auto" else decide.parse_overrides(args.effects)
+    with progress("reading") as tell:
+        clip = folders.read(args.clip, frames=args.frames, short_side=config.short_side, ignore=args.ignore,
+                            pixel_aspect=args.pixel_aspect)  # fmt: skip
+        tell(1.0)
+    with progress("looking at the clip") as tell:
+        clip = complete(clip, boxes=_boxes(args, clip), progress=lambda _, share: tell(share))
+    return clip, decide.plan(clip, config, overrides)
+
+
+def _boxes(args: argparse.Namespace, clip: Clip) -> list[Any]:
+    """The boxes given, in pixels of the clip as held."""
+    if not args.box:
+        return []
+    from genmojo_core.estimate.masks import Box
+
+    sx, sy = clip.size[0] / clip.source_size[0], clip.size[1] / clip.source_size[1]
+    return [Box(frame, x0 * sx, y0 * sy, x1 * sx, y1 * sy) for frame, (x0, y0, x1, y1) in args.box]
+
+
+class _Watched:
+    """What the events of a run said."""
+
+    def __init__(self) -> None:
+        self.step, self.seconds, self.cpu_seconds = 0, 0.0, 0.0
+        self.reason = "done"
+        self.first_scene: float | None = None
+        self.fault: GenmojoError | None = None
+        self.warnings: list[str] = []
+
+    def hear(self, event: Event, tell: Any) -> None:
+        """Take note of one event."""
+        from genmojo_core import events
+
+        self.seconds, self.cpu_seconds = event.seconds, event.cpu_seconds
+        if isinstance(event, events.Step):
+            self.step = event.step
+            tell(event.progress)
+        elif isinstance(event, events.Preview) and self.first_scene is None:
+            self.first_scene = event.seconds
+        elif isinstance(event, events.Warned | events.EffectChanged):
+            message = event.message if isinstance(event, events.Warned) else event.reason
+            self.warnings.append(message)
+            say(message)
+        elif isinstance(event, events.Finished):
+            self.step, self.reason = event.step, event.reason
+        elif isinstance(event, events.Failed):
+            self.fault = GenmojoError("numeric", event.message.rstrip("."))
+
+
+def _measured(scene: BakedScene, clip: Clip, job: Job) -> dict[str, float]:
+    """PSNR at 256 on the short side, against the clip read at that size."""
+    from genmojo_core.clip import folders
+    from genmojo_core.measure.reconstruction import SHORT_SIDE, reconstruction
+
+    if min(clip.size) != SHORT_SIDE and Path(job.source).exists():
+        again = folders.read(job.source, frames=job.frames, short_side=SHORT_SIDE, ignore=folders.CHANNELS)
+        clip = again if again.masks is not None else clip
+    with progress("measuring") as tell:
+        return reconstruction(scene, clip, tell)
+
+
+@contextmanager
+def _stop_on_signal(run: Run) -> Iterator[Any]:
+    """First Ctrl-C (or SIGTERM): the run ends after its step. Second: at once. Gives a function "was it pressed"."""
+    pressed: list[int] = []
+
+    def handler(number: int, _: FrameType | None) -> None:
+        if pressed:
+            raise KeyboardInterrupt
+        pressed.append(number)
+        run.stop()
+
+    previous = {number: signal.signal(number, handler) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield lambda: bool(pressed)
+    finally:
+        for number, old in previous.items():
+            signal.signal(number, old)
