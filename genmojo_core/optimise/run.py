@@ -140,6 +140,8 @@ class Run:
             if (i + 1) % self.config.densify_every == 0 and i + 1 < 0.8 * stage.steps:
                 self._control_density()
             if self.progress.step % SNAPSHOT_EVERY == 0:
+                for model in self.scene.objects:
+                    model.placement.limit_dolly(model.ref_frame)
                 self.guard.snapshot()
             if self.progress.step % PREVIEW_EVERY == 0 and outcome.foreground:
                 frame, psnr = outcome.foreground[-1]

@@ -58,6 +58,12 @@ class Placement(nn.Module):
         second = track[2:] - 2.0 * track[1:-1] + track[:-2]
         return (second * second).mean()
 
+    @torch.no_grad()
+    def limit_dolly(self, start: int) -> None:
+        """Project the dolly back onto small steps per frame, outward from the canonical frame."""
+        k = limited_dolly(np.exp(self.log_dolly.clamp(-2.0, 2.0).double().numpy()), start)
+        self.log_dolly.copy_(torch.from_numpy(np.log(np.maximum(k, 0.1))))
+
     def baked(self) -> tuple[np.ndarray, np.ndarray]:
         """(T, 3, 4) [s R | t] with everything included, and (T,) dolly factors."""
         rows = np.zeros((len(self.turn), 3, 4))
@@ -72,18 +78,15 @@ class Placement(nn.Module):
 
 
 
-def smooth_dolly(k: np.ndarray) -> np.ndarray:  # (T,) -> (T,)
-    """Depth ratios smoothed in time: log-space Gaussian kernel 5, sigma 1, replicate padding, then steps clamped.
+def limited_dolly(k: np.ndarray, start: int) -> np.ndarray:  # (T,) -> (T,)
+    """Depth factors followed outward from frame `start` in steps of at most DOLLY_STEP per frame.
 
-    NaN entries (object hidden) are interpolated from their neighbours first; all NaN gives ones. A constant series is
-    returned unchanged; a step of 1.0 becomes at most DOLLY_STEP per frame (METHOD.md appendix B).
+    A slow series is returned unchanged; a jump is caught up with over several frames, not cut off for good.
     """
     k = np.asarray(k, dtype=np.float64)
-    good = np.isfinite(k) & (k > 0)
-    if not good.any():
-        return np.ones_like(k)
-    log_k = np.interp(np.arange(len(k)), np.flatnonzero(good), np.log(np.clip(k[good], 0.1, 10.0)))
-    kernel = np.exp(-0.5 * np.arange(-2, 3) ** 2)
-    smooth = np.exp(np.convolve(np.pad(log_k, 2, mode="edge"), kernel / kernel.sum(), mode="valid"))
-    steps = np.clip(np.diff(smooth), -DOLLY_STEP, DOLLY_STEP)
-    return np.concatenate([smooth[:1], smooth[0] + np.cumsum(steps)])
+    limited = k.copy()
+    for order in (range(start + 1, len(k)), range(start - 1, -1, -1)):
+        for t in order:
+            before = limited[t - 1] if t > start else limited[t + 1]
+            limited[t] = before + np.clip(k[t] - before, -DOLLY_STEP, DOLLY_STEP)
+    return limited
