@@ -54,10 +54,11 @@ def rigidity(now: ObjectState, after: ObjectState, neighbours: Neighbours, rows:
     edges_now = now.local_means[index] - now.local_means[rows][:, None]
     edges_after = after.local_means[index] - after.local_means[rows][:, None]
     turn = safemath.quaternion_multiply(now.local_quats, safemath.quaternion_conjugate(after.local_quats))
-    turn = torch.where(turn[:, :1] < 0, -turn, turn)  # same rotation, one sign
     back = safemath.rotate(turn[rows][:, None].expand(-1, index.shape[1], -1), edges_after)
     moved = (weight * ((edges_now - back) ** 2).sum(-1)).clamp(min=0)
-    turned = weight * ((turn[index] - turn[rows][:, None]) ** 2).sum(-1)
+    own, others = turn[rows][:, None], turn[index]
+    others = torch.where((own * others).sum(-1, keepdim=True) < 0, -others, others)  # q and -q are one rotation
+    turned = weight * ((others - own) ** 2).sum(-1)
     return safemath.safe_sqrt(moved).mean(), safemath.safe_sqrt(turned).mean()
 
 
