@@ -29,12 +29,13 @@ def kernel(function: Callable) -> Any:
     folder = cache_folder()
     if folder is None:
         return numba.njit(nogil=True, error_model="numpy")(function)
-    before = numba.config.CACHE_DIR
-    numba.config.CACHE_DIR = str(folder)  # read while the function is declared, so it can be put back at once
+    settings: Any = numba.config
+    before = settings.CACHE_DIR
+    settings.CACHE_DIR = str(folder)  # read while the function is declared, so it can be put back at once
     try:
         return numba.njit(nogil=True, cache=True, error_model="numpy")(function)
     finally:
-        numba.config.CACHE_DIR = before
+        settings.CACHE_DIR = before
 
 
 def inlined(function: Callable) -> Any:
