@@ -12,7 +12,7 @@ from torch import Tensor
 from genmojo_core.scene import safemath
 from genmojo_core.scene.gaussians import Gaussians
 
-GROW_SHARE = 0.06  # of the Gaussians, per control
+GROW_SHARE = 0.1  # of the Gaussians, per control
 MIN_OPACITY = 0.01
 MAX_SIGMA = 0.35  # object units
 KEEP_AT_LEAST = 16

@@ -22,7 +22,8 @@ from genmojo_core.scene.initialise import Points, points_of_image, uncovered
 from genmojo_core.scene.placement import Placement
 from genmojo_core.scene.scene4d import Layout, ObjectModel, Scene4D
 
-FIRST_SHARE = 0.5  # of an object's Gaussians, spent on the canonical frame
+START_SHARE = 0.7  # of the allowed Gaussians; the rest is left to density control
+FIRST_SHARE = 0.65  # of these, spent on the canonical frame
 MIN_POINTS = 16
 
 
@@ -56,7 +57,7 @@ def lift(clip: Clip, plan: EffectPlan, config: RunConfig, motions: list[ObjectMo
     rows: dict[int, int] = {}
     frames_of, warnings = [], []
     for k in range(clip.objects):
-        points = object_points(clip, k, motions[k], config.gaussians_per_object // 2)
+        points = object_points(clip, k, motions[k], int(START_SHARE * config.gaussians_per_object))
         if len(points) < MIN_POINTS:
             points = _padded(points, clip, k, motions[k])
         if not len(points):

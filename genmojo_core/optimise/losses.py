@@ -15,6 +15,8 @@ from genmojo_core.scene import safemath
 from genmojo_core.scene.scene4d import Layout
 
 HALF = 0.5
+GUESSED_DEPTH = 0.1  # weight of a guessed depth's shape against a measured depth's value
+FLOW_LIMIT = 10.0  # flow errors above this many percent of the diagonal are taken for wrong flow
 
 
 def masked_mean(values: Tensor, weight: Tensor) -> Tensor:
@@ -53,40 +55,46 @@ def label_loss(rendering: Rendering, layout: Layout, target: FrameTargets) -> Te
 
 
 def depth_loss(rendering: Rendering, layout: Layout, target: FrameTargets) -> Tensor:
-    """Depth inside the objects: relative error where depth was measured, 1 - Pearson per object where it is a guess."""
-    depth = safemath.safe_divide(rendering.depth, rendering.alpha, 1e-4)
-    labels = rendering.features[..., 3 : 3 + layout.labels].detach()
+    """Depth inside the objects: relative error where depth was measured, 1 - Pearson per object where it is a guess.
+
+    Only pixels that already show mostly their own object count (the rest is the label term's business).
+    """
+    flat_depth, flat_alpha = rendering.depth.reshape(-1), rendering.alpha.reshape(-1)
+    shown = rendering.features.detach().reshape(-1, rendering.features.shape[-1])
     total = rendering.depth.sum() * 0.0
-    for k in range(layout.labels):
-        own = (target.labels == k + 1) if layout.labels > 1 else (target.labels > 0)
-        weight = target.depth_seen * own * (labels[..., k] > HALF)
-        if float(weight.sum()) < 16:
+    for k, pixels in enumerate(target.depth_pixels):
+        pixels = pixels[shown[pixels, 3 + min(k, layout.labels - 1)] > HALF]
+        if len(pixels) < 16:
             continue
+        depth = safemath.safe_divide(flat_depth[pixels], flat_alpha[pixels], 1e-4)
+        expected = target.depth.reshape(-1)[pixels]
         if target.depth_scaled:
-            total = total + masked_mean(((depth - target.depth) / target.depth.clamp(min=1e-6)).abs(), weight)
+            total = total + ((depth - expected) / expected.clamp(min=1e-6)).abs().mean()
         else:
-            total = total + 0.1 * (1.0 - pearson(depth, target.depth, weight))
-    return total / layout.labels
+            total = total + GUESSED_DEPTH * (1.0 - pearson(depth, expected))
+    return total / max(len(target.depth_pixels), 1)
 
 
-def pearson(a: Tensor, b: Tensor, weight: Tensor) -> Tensor:
-    """Weighted correlation of two images; 0 where either is constant."""
-    a0, b0 = a - masked_mean(a, weight), b - masked_mean(b, weight)
-    covariance = masked_mean(a0 * b0, weight)
-    spread = safemath.safe_sqrt(masked_mean(a0 * a0, weight) * masked_mean(b0 * b0, weight), 1e-16)
-    return safemath.safe_divide(covariance, spread, 1e-7)
+def pearson(a: Tensor, b: Tensor) -> Tensor:  # (N,), (N,)
+    """Correlation; 0 where either is constant."""
+    a, b = a - a.mean(), b - b.mean()
+    spread = safemath.safe_sqrt((a * a).mean() * (b * b).mean(), 1e-16)
+    return safemath.safe_divide((a * b).mean(), spread, 1e-7)
 
 
 def flow_loss(rendering: Rendering, layout: Layout, target: FrameTargets) -> Tensor:
     """L1 of splatted centre motion against the flow inside the masks, per object coverage, in 1 % of the diagonal."""
     start = 3 + layout.labels
-    coverage = rendering.features[..., 3:start].sum(-1).detach()
-    weight = target.flow_seen * (target.labels > 0) * (coverage > HALF)
-    expected = target.flow * coverage[..., None]
+    features = rendering.features.reshape(-1, layout.channels)
+    coverage = features[target.flow_pixels, 3:start].sum(-1).detach()
+    pixels, coverage = target.flow_pixels[coverage > HALF], coverage[coverage > HALF]
+    if not len(pixels):
+        return rendering.features.sum() * 0.0
     height, width = target.labels.shape
     unit = 0.01 * (height * height + width * width) ** 0.5
-    error = (rendering.features[..., start : start + 2] - expected).abs().sum(-1) / unit
-    return masked_mean(error.clamp(max=10.0), weight)
+    expected = target.flow.reshape(-1, 2)[pixels] * coverage[:, None]
+    error = (features[pixels, start : start + 2] - expected).abs().sum(-1) / unit
+    return error.clamp(max=FLOW_LIMIT).mean()
 
 
 def track_loss(pixels: Tensor, expected: Tensor, confidence: Tensor, diagonal: float) -> Tensor:

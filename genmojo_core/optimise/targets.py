@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import torch
@@ -20,6 +20,8 @@ class FrameTargets:
     rgb (H, W, 3) 0..1; labels (H, W) int64, 0 background, k + 1 object k; seen (H, W) float, 1 where the pixel counts
     (neither void nor held out); held_out (H, W) bool; depth (H, W) and depth_seen (H, W) float; flow (H, W, 2) px to
     the next frame and flow_seen (H, W) float. `depth_scaled` tells a measured depth from a guess.
+    depth_pixels: for every label, flat indices of its pixels with depth; flow_pixels: flat indices of foreground with
+    flow. They spare the terms that look at a few pixels a walk over the whole image.
     """
 
     rgb: Tensor
@@ -31,6 +33,17 @@ class FrameTargets:
     flow: Tensor
     flow_seen: Tensor
     depth_scaled: bool
+
+    def __post_init__(self) -> None:
+        labels = self.labels.reshape(-1)
+        has_depth = self.depth_seen.reshape(-1) > 0
+        indices = [torch.nonzero((labels == k) & has_depth)[:, 0] for k in range(1, int(labels.max()) + 1)]
+        object.__setattr__(self, "depth_pixels", indices)
+        flowing = torch.nonzero((labels > 0) & (self.flow_seen.reshape(-1) > 0))[:, 0]
+        object.__setattr__(self, "flow_pixels", flowing)
+
+    depth_pixels: list[Tensor] = field(init=False, repr=False)
+    flow_pixels: Tensor = field(init=False, repr=False)
 
 
 def held_out_blocks(masks: np.ndarray, share: float, seed: int) -> np.ndarray:  # (T, H, W) labels -> bool
