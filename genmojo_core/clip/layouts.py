@@ -13,7 +13,21 @@ from genmojo_core.clip.images import EXTENSIONS
 from genmojo_core.clip.limits import check_limit
 from genmojo_core.errors import GenmojoError
 
-VIDEO_EXTENSIONS = (".mp4", ".mov", ".m4v", ".mkv", ".avi", ".webm", ".mpg", ".mpeg", ".ts", ".mts", ".3gp", ".wmv")
+VIDEO_EXTENSIONS = (
+    ".mp4",
+    ".mov",
+    ".m4v",
+    ".mkv",
+    ".avi",
+    ".webm",
+    ".mpg",
+    ".mpeg",
+    ".ts",
+    ".mts",
+    ".3gp",
+    ".wmv",
+    ".h264",
+)
 IMAGES, MASKS, PLATES, MEGASAM = "JPEGImages", "Annotations", "InpaintedBackgrounds", "MegaSAM_Outputs"
 
 

@@ -20,6 +20,7 @@ Vector = tuple[float, float, float]
 
 GROUND, WALL, NOTHING = -1, -2, -3  # owners of rays that meet no shape
 AMBIENT = 0.45
+_PRIMES = np.array([0x8DA6B343, 0xD8163841, 0xCB1AB31F], np.uint32)
 LIGHT = np.array([-0.45, -0.7, 0.55]) / np.linalg.norm([-0.45, -0.7, 0.55])  # towards the light, world
 
 
@@ -107,6 +108,19 @@ def cast(
     return hits
 
 
+def first_depth(view: View, matrices: list[np.ndarray], kinds: list[Kind], xy: np.ndarray) -> np.ndarray:
+    """(N,) depth of the first shape under (N, 2) raster points of a view, inf where there is none."""
+    local = (xy - [view.cx, view.cy]) / [view.fx, view.fy]
+    pose = np.linalg.inv(view.world_to_camera)
+    rays = np.column_stack([local, np.ones(len(xy))]) @ pose[:3, :3].T
+    nearest = np.full(len(xy), np.inf)
+    for matrix, kind in zip(matrices, kinds, strict=True):
+        inverse = np.linalg.inv(matrix)
+        start = inverse[:3, :3] @ pose[:3, 3] + inverse[:3, 3]
+        nearest = np.minimum(nearest, _SOLIDS[kind](start, rays @ inverse[:3, :3].T))
+    return nearest
+
+
 def shade(hits: Hits, shapes: tuple[Shape, ...], matrices: list[np.ndarray], light: float) -> np.ndarray:
     """(H, W, 3) float64 RGB in 0..1 of hits under a light of some strength; black where nothing was met."""
     colour = np.zeros(hits.point.shape)
@@ -132,15 +146,16 @@ def noise(points: np.ndarray, seed: int) -> np.ndarray:  # (N, 3) -> (N,)
     cell = np.floor(points)
     part = points - cell
     part = part * part * (3 - 2 * part)
-    corner = cell.astype(np.int64)
+    lattice = cell.astype(np.int64).astype(np.uint32) * _PRIMES  # wraps around, as the hash wants it
+    x, y, z = ((lattice[:, axis], lattice[:, axis] + _PRIMES[axis]) for axis in range(3))
+    px, py, pz = ((1 - part[:, axis], part[:, axis]) for axis in range(3))
     total = np.zeros(len(points))
     for i in (0, 1):
         for j in (0, 1):
+            column = x[i] ^ y[j] ^ np.uint32(seed * 0x9E3779B1 & 0xFFFFFFFF)
+            weight = px[i] * py[j]
             for k in (0, 1):
-                weight = np.ones(len(points))
-                for axis, side in enumerate((i, j, k)):
-                    weight *= part[:, axis] if side else 1 - part[:, axis]
-                total += weight * _hash(corner + np.array([i, j, k]), seed)
+                total += weight * pz[k] * _mixed(column ^ z[k])
     return total
 
 
@@ -165,11 +180,13 @@ def _cast_background(hits: Hits, origin: np.ndarray, rays: np.ndarray, wall: flo
     hits.point[met] = origin + hits.depth[met][:, None] * rays[met]
 
 
+_CORNERS = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
+
+
 def _window(view: View, matrix: np.ndarray) -> tuple[slice, slice]:
     """Rows and columns that can show a shape: the box around its projected corners, all if one is behind."""
-    corners = np.stack(np.meshgrid(*([(-1.0, 1.0)] * 3)), axis=-1).reshape(-1, 3)
     matrix = view.world_to_camera @ matrix
-    local = corners @ matrix[:3, :3].T + matrix[:3, 3]
+    local = _CORNERS @ matrix[:3, :3].T + matrix[:3, 3]
     if (local[:, 2] <= view.near).any():
         return slice(0, view.height), slice(0, view.width)
     x = local[:, 0] / local[:, 2] * view.fx + view.cx
@@ -236,10 +253,8 @@ def _texture(points: np.ndarray, shape: Shape, seed: int) -> np.ndarray:
     return np.clip((first + (second - first) * mix[:, None]) * grain[:, None], 0, 1)
 
 
-def _hash(cells: np.ndarray, seed: int) -> np.ndarray:
-    """(N,) float64 in 0..1 from (N, 3) integer cells."""
-    part = (cells.astype(np.uint64) & np.uint64(0xFFFFFFFF)) * np.array([0x8DA6B343, 0xD8163841, 0xCB1AB31F], np.uint64)
-    mixed = (part[:, 0] ^ part[:, 1] ^ part[:, 2] ^ np.uint64(seed * 0x9E3779B1)) & np.uint64(0xFFFFFFFF)
-    mixed = ((mixed ^ (mixed >> np.uint64(15))) * np.uint64(0x85EBCA6B)) & np.uint64(0xFFFFFFFF)
-    mixed = ((mixed ^ (mixed >> np.uint64(13))) * np.uint64(0xC2B2AE35)) & np.uint64(0xFFFFFFFF)
-    return (mixed ^ (mixed >> np.uint64(16))) / 2.0**32
+def _mixed(key: np.ndarray) -> np.ndarray:
+    """(N,) float64 in 0..1 from (N,) uint32 keys (the finaliser of MurmurHash3)."""
+    key = (key ^ (key >> np.uint32(16))) * np.uint32(0x85EBCA6B)
+    key = (key ^ (key >> np.uint32(13))) * np.uint32(0xC2B2AE35)
+    return (key ^ (key >> np.uint32(16))) * 2.0**-32

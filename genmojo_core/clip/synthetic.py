@@ -240,20 +240,15 @@ def _material_points(stage: _Stage, hits: list[Hits]) -> tuple[np.ndarray, np.nd
 def _carried(stage: _Stage, owners: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(P, T, 2) pixels, (P, T) states and (P, T, 3) world places of material points in every frame."""
     count, frames = len(owners), stage.what.frames
-    xy = np.zeros((count, frames, 2))
-    xyz = np.zeros((count, frames, 3))
+    xy, xyz = np.zeros((count, frames, 2)), np.zeros((count, frames, 3))
     state = np.full((count, frames), OUT_OF_VIEW, np.uint8)
-    width, height = stage.what.size
-    for t in range(frames):
-        view = stage.views[t]
-        for p in range(count):
-            xyz[p, t] = stage.world(t, int(owners[p]), points[p : p + 1])[0]
-            place, z = _projected(view, xyz[p : p + 1, t])
-            xy[p, t] = place[0]
-            if z[0] > 0 and 0 <= place[0, 0] < width and 0 <= place[0, 1] < height:
-                pixel = view.cropped(place[0, 0] - 0.5, place[0, 1] - 0.5, 1, 1)  # a one-pixel image around the point
-                first = stage.cast(t, pixel, CENTRE, alone=True).depth[0, 0]
-                state[p, t] = VISIBLE if first > z[0] * (1 - 1e-6) else OCCLUDED
+    for t, view in enumerate(stage.views):
+        for k in np.unique(owners):
+            xyz[owners == k, t] = stage.world(t, int(k), points[owners == k])
+        xy[:, t], z = _projected(view, xyz[:, t])
+        inside = (z > 0) & (xy[:, t] >= 0).all(axis=1) & (xy[:, t] < stage.what.size).all(axis=1)
+        first = shapes.first_depth(view, stage.matrices[t], stage.kinds, xy[:, t])
+        state[inside, t] = np.where(first > z * (1 - 1e-6), VISIBLE, OCCLUDED)[inside]
     return xy.astype(np.float32), state, xyz.astype(np.float32)
 
 

@@ -20,11 +20,16 @@ from genmojo_core.errors import GenmojoError
 
 @dataclass(frozen=True)
 class Index:
-    """Time stamps of a video's frames, in units of `base` seconds, rising, and those of its key frames."""
+    """Time stamps of a video's frames, in units of `base` seconds, rising, and those of its key frames.
+
+    `counted` is True where frames carry no stamp to be trusted (bare streams, AVI with B-frames): the n-th picture
+    decoded then has the n-th stamp, and decoding starts at the beginning.
+    """
 
     stamps: np.ndarray
     keys: np.ndarray
     base: float
+    counted: bool
 
 
 def read(path: Path, span: pictures.Span | None, short_side: int | None) -> pictures.Pictures:
@@ -73,10 +78,10 @@ class _Decoder:
         first, last = stamps[self._chosen.start], stamps[self._chosen.stop - 1]
         place = {int(s): i for i, s in enumerate(stamps)}
         keys = self._index.keys[self._index.keys <= first]
-        if len(keys) > 1:  # two back: pictures just after a key frame may lean on the one before it
-            container.seek(int(keys[-2] if len(keys) > 2 else keys[0]), stream=stream)
-        for frame in container.decode(stream):
-            stamp = _stamp(frame)
+        if len(keys) > 1 and not self._index.counted:
+            container.seek(int(keys[-2]), stream=stream)  # the last may lean on the one before it
+        for i, frame in enumerate(container.decode(stream)):
+            stamp = int(stamps[min(i, len(stamps) - 1)]) if self._index.counted else frame.pts
             if stamp is None or stamp < first or stamp not in place:
                 continue
             if stamp > last:
@@ -91,23 +96,21 @@ class _Decoder:
 
 
 def _index(path: Path) -> Index:
-    """Time stamps by one demux; by decoding where packets carry none."""
+    """Time stamps by one demux, without decoding."""
     with _opened(path) as container:
         stream = _picture_stream(container, str(path))
-        base = float(stream.time_base or 0) or 1 / 24
-        packets = [p for p in container.demux(stream) if p.size and not p.is_discard]
-        check_limit("frames", len(packets), str(path))
-        stamps = [p.pts for p in packets]
-        keys = [p.pts for p in packets if p.is_keyframe and p.pts is not None]
-    if None in stamps:
-        keys = []
-        with _opened(path) as container:
-            frames = container.decode(_picture_stream(container, str(path)))
-            stamps = [_stamp(frame) for frame in frames]
-    known = np.unique(np.array([s for s in stamps if s is not None], np.int64))
-    if not known.size:
+        packets = [(p.pts, p.is_keyframe) for p in container.demux(stream) if p.size and not p.is_discard]
+        base, reordered = float(stream.time_base or 0), stream.codec_context.has_b_frames
+        rate = float(stream.average_rate or 24)
+    if not packets:
         raise GenmojoError("video", "holds no frame", str(path), "give a video with pictures")
-    return Index(known, np.unique(np.array(keys, np.int64)), base)
+    check_limit("frames", len(packets), str(path))
+    stamps = np.array([pts for pts, _ in packets if pts is not None], np.int64)
+    keys = np.unique([pts for pts, is_key in packets if is_key and pts is not None])
+    if len(stamps) < len(packets) or not base:
+        return Index(np.arange(len(packets)), keys, 1 / rate, counted=True)
+    in_file_order = bool((np.diff(stamps) > 0).all())  # of frames that are shown in another order: made up
+    return Index(np.unique(stamps), keys, base, counted=in_file_order and reordered)
 
 
 def _opened(path: Path) -> av.container.InputContainer:
@@ -131,11 +134,6 @@ def _picture_stream(container: av.container.InputContainer, where: str) -> av.Vi
     stream.codec_context.options = {"max_pixels": str(LIMITS["image_pixels"].most)}
     check_image_size(stream.codec_context.width, stream.codec_context.height, where)
     return stream
-
-
-def _stamp(frame: av.VideoFrame) -> int | None:
-    """Presentation time stamp, else the decoding one."""
-    return frame.pts if frame.pts is not None else frame.dts
 
 
 def _pixel_aspect(stream: av.VideoStream, *, turned: bool) -> float | None:
