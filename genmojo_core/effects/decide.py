@@ -1,0 +1,209 @@
+"""From evidence to decisions: which effects a run simulates, each with its number, threshold, reason and cost."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import cast, get_args
+
+from genmojo_core.clip.clip import Clip
+from genmojo_core.config import RunConfig
+from genmojo_core.effects.costs import predict, run_sizes
+from genmojo_core.effects.evidence import Evidence, measure
+from genmojo_core.effects.plan import Effect, EffectName, EffectPlan
+from genmojo_core.effects.shape import RIGID_MODE, RIGID_OUTLINE
+from genmojo_core.errors import GenmojoError
+
+NAMES: tuple[str, ...] = get_args(EffectName)
+FEWEST_BASES = 4  # motion bases of an object that bends a little; one that bends much gets all of the preset
+
+
+@dataclass(frozen=True)
+class Rule:
+    """How one effect is decided: on when `value` reaches `threshold`.
+
+    Args:
+        value: the number, in `unit`. origin: where the threshold comes from.
+        reason: one sentence about the number. lacking: why it cannot be switched on at all; empty if it can.
+    """
+
+    value: float
+    unit: str
+    threshold: float
+    origin: str
+    reason: str
+    lacking: str = ""
+
+
+def plan(clip: Clip, config: RunConfig, overrides: Mapping[str, bool] | None = None) -> EffectPlan:
+    """Decide all effects for a completed clip.
+
+    Args:
+        clip: every channel present (estimate.complete). config: sizes and prior of the run.
+        overrides: effects that the user switches on or off whatever the evidence says.
+
+    Raises:
+        GenmojoError("argument"): an override that names no effect or that this clip or run cannot do.
+    """
+    evidence = measure(clip)
+    sizes = run_sizes(clip.size, len(clip), evidence.objects, evidence.background, config)
+    overrides = dict(overrides or {})
+    _check_names(overrides)
+    effects = []
+    for name in NAMES:
+        rule = _RULES[name](clip, config, evidence)
+        ms, mb = predict(name, sizes, config)
+        on = rule.value >= rule.threshold and not rule.lacking
+        effect = Effect(cast(EffectName, name), on, rule.value, rule.unit, rule.threshold, rule.origin, rule.reason,
+                        ms, mb)  # fmt: skip
+        effects.append(_overridden(effect, overrides.get(name), rule.lacking))
+    return EffectPlan(tuple(_with_bases(effect, config) for effect in effects))
+
+
+def parse_overrides(text: str) -> dict[str, bool]:
+    """{"appearance_change": True, "unseen_views": False} for "+appearance_change,-unseen_views"; {} for "auto" or "".
+
+    Raises GenmojoError("argument") for a name that is no effect, a missing sign, or + and - for the same effect.
+    """
+    result: dict[str, bool] = {}
+    for item in (part.strip() for part in text.split(",")):
+        if item in ("", "auto"):
+            continue
+        if item[0] not in "+-":
+            raise GenmojoError("argument", f"'{item}' says neither + nor -", "--effects", f"write +{item} or -{item}")
+        name, on = item[1:].strip(), item[0] == "+"
+        if result.get(name, on) != on:
+            raise GenmojoError("argument", f"'{name}' is switched both on and off", "--effects", "choose one")
+        result[name] = on
+    _check_names(result)
+    return result
+
+
+def _check_names(overrides: Mapping[str, bool]) -> None:
+    """Raise GenmojoError("argument") for names that are no effects."""
+    unknown = [name for name in overrides if name not in NAMES]
+    if unknown:
+        raise GenmojoError("argument", f"there is no effect {', '.join(repr(name) for name in unknown)}", "--effects",
+                           f"use {', '.join(NAMES)}")  # fmt: skip
+
+
+def _overridden(effect: Effect, wanted: bool | None, lacking: str) -> Effect:
+    """The effect as the user wants it; what cannot be done cannot be switched on."""
+    if wanted is None:
+        return effect
+    if wanted and lacking:
+        raise GenmojoError("argument", f"'{effect.name}' cannot be switched on: {lacking}", "--effects",
+                           f"leave out +{effect.name}")  # fmt: skip
+    said = f"Switched {'on' if wanted else 'off'} by the user. {effect.reason}"
+    return replace(effect, on=wanted, overridden=True, reason=said)
+
+
+def _with_bases(effect: Effect, config: RunConfig) -> Effect:
+    """Motion bases in proportion to how much the objects bend; none when they do not."""
+    if effect.name != "non_rigid_motion":
+        return effect
+    most = config.motion_bases
+    bases = min(most, max(min(FEWEST_BASES, most), round(FEWEST_BASES * effect.evidence))) if effect.on else 0
+    return replace(effect, settings={"motion_bases": bases})
+
+
+# ---- one rule per effect --------------------------------------------------------------------------------------------
+
+
+def _joint_occlusion(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
+    percent = 100 * evidence.contact
+    said = f"Two objects touch in {percent:.0f} % of the frames" if percent else "No two objects ever touch"
+    return Rule(percent, "% of frames", 100 / max(len(clip), 1) - 1e-6, "one frame of contact is enough to hide",
+                f"{said}.")  # fmt: skip
+
+
+def _background(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
+    percent = 100 * evidence.background
+    return Rule(percent, "% of pixels", 5.0, "less than a twentieth is left to the objects' edges",
+                f"{percent:.0f} % of all pixels show no object.",
+                "" if evidence.background > 0 else "every pixel belongs to an object")  # fmt: skip
+
+
+def _camera_motion(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
+    moves = f"The camera shifts the background by up to {evidence.camera:.1f} px"
+    return Rule(evidence.camera, "px at 256", 0.5, "half a pixel cannot be seen",
+                f"{moves if evidence.camera >= 0.5 else 'The camera stands still'} ({_source(clip.cameras)}).",
+                "" if clip.cameras is not None else "the clip has no cameras")  # fmt: skip
+
+
+def _non_rigid_motion(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
+    scores = [one.score for one in evidence.bending]
+    worst = max(range(len(scores)), key=scores.__getitem__, default=0)
+    value = scores[worst] if scores else 0.0
+    name = clip.object_names[worst] if worst < len(clip.object_names) else str(worst + 1)
+    said = "Every object moves like a rigid body as far as flow and outlines show."
+    if value >= 1:
+        said = f"'{name}' bends {value:.1f} times as much as turning rigid objects seem to."
+    limits = f"{100 * RIGID_MODE:.1f} % (fourth mode of flow) and {100 * RIGID_OUTLINE:.0f} % (outline) of their size"
+    return Rule(value, "x rigid", 1.0, f"rigid objects of the shared clips stay under {limits}", said,
+                "" if len(clip) > 1 else "a single frame has no motion")  # fmt: skip
+
+
+def _appearance_change(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
+    percent = 100 * evidence.light
+    said = f"Brightness changes by {percent:.0f} % over the clip" if percent >= 8 else "The light stays the same"
+    return Rule(percent, "% brightness", 8.0, "steady light measures under 6 % on the shared clips", f"{said}.",
+                "" if len(clip) > 1 else "a single frame has one light")  # fmt: skip
+
+
+def _unseen_views(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
+    installed = config.prior != "none"
+    said = f"The prior {config.prior} draws the sides never seen." if installed else "No prior is installed."
+    return Rule(float(installed), "priors", 1.0, "only a prior knows unseen sides", said,
+                "" if installed else "no prior is installed")  # fmt: skip
+
+
+def _instance_labels(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
+    said = f"{evidence.objects} objects must be kept apart" if evidence.objects > 1 else "There is one object only"
+    return Rule(float(evidence.objects), "objects", 2.0, "one object cannot be taken for another", f"{said}.")
+
+
+def _depth_order(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
+    percent = 100 * evidence.depth
+    return Rule(percent, "% of object pixels", 50.0, "half of the objects' pixels",
+                f"{percent:.0f} % of the objects' pixels have a depth ({_source(clip.depth)}).",
+                "" if clip.depth is not None else "the clip has no depth")  # fmt: skip
+
+
+def _flow(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
+    percent = 100 * evidence.flow
+    said = f"Flow holds in {percent:.0f} % of the objects' pixels ({_source(clip.flow)})."
+    return Rule(percent, "% of object pixels", 20.0, "below a fifth wrong vectors outweigh right ones",
+                said if len(clip) > 1 else "A single frame has no motion.",
+                "" if clip.flow is not None and len(clip) > 1 else "the clip has no flow")  # fmt: skip
+
+
+def _track_supervision(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
+    return Rule(evidence.corners, "corners per object", 4.0, "four points fix a similarity with one to spare",
+                f"Usually {evidence.corners:.0f} corners of an object can be followed.",
+                "" if len(clip) > 1 else "a single frame has no tracks")  # fmt: skip
+
+
+def _reappearance(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
+    said = "No object is hidden and comes back"
+    if evidence.hidden:
+        said = f"An object is hidden for up to {_counted(evidence.hidden, 'frame')} and comes back"
+    return Rule(float(evidence.hidden), "frames", 1.0, "one frame without it must be bridged", f"{said}.")
+
+
+def _counted(number: int, noun: str) -> str:
+    """ "1 frame", "2 frames"."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def _source(channel: object) -> str:
+    """ "given" or "estimated", for a sentence."""
+    return "given" if getattr(channel, "given", False) else "estimated"
+
+
+_RULES: dict[str, Callable[[Clip, RunConfig, Evidence], Rule]] = {
+    "joint_occlusion": _joint_occlusion, "background": _background, "camera_motion": _camera_motion,
+    "non_rigid_motion": _non_rigid_motion, "appearance_change": _appearance_change, "unseen_views": _unseen_views,
+    "instance_labels": _instance_labels, "depth_order": _depth_order, "flow": _flow,
+    "track_supervision": _track_supervision, "reappearance": _reappearance,
+}  # fmt: skip

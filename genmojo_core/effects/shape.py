@@ -1,0 +1,148 @@
+"""Does an object bend? Two measures that a rigid body, however it turns, keeps small; numpy and OpenCV only.
+
+Flow: points of a rigid body followed over a few frames span three modes (Tomasi and Kanade 1992: the centred track
+matrix of a rigid body under an affine camera has rank 3); the amplitude of the fourth mode is motion that is not rigid
+(Bregler et al. 2000). Outline: a mask seen whole in two frames a few frames apart, its affine change taken out, keeps
+its outline unless the object bends or turns fast. Flow misses objects whose texture says nothing, outlines those that
+are always touched, so either one is enough.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from genmojo_core.clip.clip import Clip
+from genmojo_core.effects.objects import ObjectFacts
+
+# Limits of what rigid objects show, each between the rigid and the bending objects of the shared Blender clips.
+RIGID_MODE = 0.004  # of the object's size: fourth mode (rigid at most 0.0022 there, an animal or a player 0.005-0.016)
+RIGID_MODE_PX = 0.35  # pixels: error of the flow itself (rigid at most 0.25 there)
+RIGID_OUTLINE = 0.02  # of the object's size: mean outline shift (rigid at most 0.015 there, the bending cylinder 0.03)
+OUTLINE_NOISE_PX = 0.3  # pixels a mask's outline shifts by sampling alone
+
+_FLOW_WINDOW = 6  # frames points are followed
+_OUTLINE_WINDOW = 8  # frames between two outlines at most
+_MOST_WINDOWS = 24  # of a long clip
+_FEWEST_POINTS = 16
+_MOST_POINTS = 1500
+_SIDE, _EXTENT = 64, 2.6  # outline patch: pixels, half width in standard deviations of the mask
+_TURNS = tuple(np.deg2rad(np.arange(-30, 31, 5)))
+
+
+@dataclass(frozen=True)
+class Bending:
+    """How far an object is from rigid.
+
+    Args:
+        mode: amplitude of the fourth mode as a share of the object's size (NaN: could not be followed).
+        outline: mean shift of the outline as a share of the object's size (NaN: never seen whole for long enough).
+        score: the larger of both as a multiple of what a rigid object shows; 0 when neither could be measured.
+    """
+
+    mode: float
+    outline: float
+    score: float
+
+
+def bending(clip: Clip, k: int, facts: ObjectFacts) -> Bending:
+    """Measure object k; at the edges: NaN measures and score 0 for one frame, no flow or an object hardly seen."""
+    size = math.sqrt(max(int(facts.area.max(initial=0)), 1))
+    mode, outline = _fourth_mode(clip, k), _outline_change(clip, k, facts)
+    from_flow = min(mode / (RIGID_MODE * size), mode / RIGID_MODE_PX)
+    from_outline = max(0.0, outline - OUTLINE_NOISE_PX) / (RIGID_OUTLINE * size)
+    score = max((x for x in (from_flow, from_outline) if math.isfinite(x)), default=0.0)
+    return Bending(mode / size, outline / size, score)
+
+
+def fourth_mode(tracks: np.ndarray) -> float:  # (P, F, 2) pixels
+    """Root mean square, in pixels, of the part of the motion in the fourth mode, after taking out stray points."""
+    rows = tracks.transpose(1, 2, 0).reshape(-1, len(tracks)).astype(np.float64)
+    keep = np.ones(rows.shape[1], bool)
+    for _ in range(3):
+        centred = rows - np.median(rows[:, keep], axis=1, keepdims=True)
+        basis = np.linalg.svd(centred[:, keep], full_matrices=False)[0][:, :3]
+        error = np.sqrt(((centred - basis @ (basis.T @ centred)) ** 2).mean(axis=0))
+        keep = error <= 2.5 * np.median(error) + 1e-9
+    rows = rows[:, keep] - rows[:, keep].mean(axis=1, keepdims=True)
+    singular = np.linalg.svd(rows, compute_uv=False)
+    return float(singular[3] / math.sqrt(rows.size / 2)) if len(singular) > 3 else math.nan
+
+
+def _fourth_mode(clip: Clip, k: int) -> float:
+    """The usual large value over the clip (90th percentile of the windows), pixels; NaN when nothing is followed."""
+    window = min(_FLOW_WINDOW, len(clip))
+    if clip.flow is None or window < 3:
+        return math.nan
+    masks = clip.object_mask(k)
+    values = []
+    for start in _starts(len(clip) - window + 1):
+        tracks = _follow(masks, clip.flow.value, clip.flow.valid, range(start, start + window))
+        if len(tracks) >= _FEWEST_POINTS:
+            values.append(fourth_mode(tracks))
+    return float(np.percentile(values, 90)) if values else math.nan
+
+
+def _follow(masks: np.ndarray, flow: np.ndarray, valid: np.ndarray, frames: range) -> np.ndarray:
+    """Tracks (P, F, 2) of points carried by the flow that stay inside the object and where the flow holds."""
+    inner = {t: cv2.erode(masks[t].astype(np.uint8), np.ones((3, 3), np.uint8)).astype(np.float32) for t in frames}
+    y, x = np.nonzero(inner[frames[0]])
+    chosen = np.linspace(0, len(x) - 1, min(len(x), _MOST_POINTS)).astype(int)
+    points = np.stack([x[chosen], y[chosen]], axis=1).astype(np.float64)
+    tracks, good = [points], np.ones(len(points), bool)
+    for t in frames[:-1]:
+        good &= _bilinear(valid[t].astype(np.float32)[..., None], points)[:, 0] > 0.9
+        points = points + _bilinear(flow[t], points)
+        good &= _bilinear(inner[t + 1][..., None], points)[:, 0] > 0.5
+        tracks.append(points)
+    return np.stack(tracks, axis=1)[good]
+
+
+def _bilinear(image: np.ndarray, points: np.ndarray) -> np.ndarray:  # (H, W, C), (P, 2) pixel indices -> (P, C)
+    """Values between pixels; places outside take the border's."""
+    h, w = image.shape[:2]
+    x, y = np.clip(points[:, 0], 0, w - 1), np.clip(points[:, 1], 0, h - 1)
+    i, j = np.minimum(x.astype(int), max(w - 2, 0)), np.minimum(y.astype(int), max(h - 2, 0))
+    a, b = (x - i)[:, None], (y - j)[:, None]
+    right, down = np.minimum(i + 1, w - 1), np.minimum(j + 1, h - 1)
+    return (1 - b) * ((1 - a) * image[j, i] + a * image[j, right]) + b * (
+        (1 - a) * image[down, i] + a * image[down, right]
+    )
+
+
+def _outline_change(clip: Clip, k: int, facts: ObjectFacts) -> float:
+    """Largest mean shift of the outline, pixels, within a window of frames that show the object whole; NaN if none."""
+    whole = (facts.area >= max(60, 0.3 * facts.area.max(initial=0))) & ~facts.touches & ~facts.cut
+    masks = clip.object_mask(k)
+    worst = math.nan
+    for start in _starts(len(clip)):
+        length = int(np.argmin(np.append(whole[start : start + _OUTLINE_WINDOW], False)))
+        if length < 3:
+            continue
+        first, turned = _patch(masks[start], 0.0), [_patch(masks[start + length - 1], turn) for turn in _TURNS]
+        differing = min(float((first ^ patch).sum()) for patch in turned) / max(float(first.sum()), 1.0)
+        area = math.sqrt(float(facts.area[start]) * float(facts.area[start + length - 1]))
+        shift = differing * math.sqrt(area) / 4.0  # an outline of length 4 sqrt(area), as a square has
+        worst = shift if math.isnan(worst) else max(worst, shift)
+    return worst
+
+
+def _patch(mask: np.ndarray, turn: float) -> np.ndarray:  # (H, W) bool -> (64, 64) bool
+    """The mask with its spread made round and unit, turned by an angle in radians before."""
+    y, x = np.nonzero(mask)
+    values, axes = np.linalg.eigh(np.cov(np.stack([x, y]).astype(np.float64)))
+    root = axes @ np.diag(np.sqrt(np.maximum(values, 0.25))) @ axes.T
+    c, s = math.cos(turn), math.sin(turn)
+    grid = np.linspace(-_EXTENT, _EXTENT, _SIDE)
+    places = root @ np.array([[c, -s], [s, c]]) @ np.stack(np.meshgrid(grid, grid)).reshape(2, -1)
+    columns = np.ascontiguousarray((places[0] + x.mean()).reshape(_SIDE, _SIDE), dtype=np.float32)
+    rows = np.ascontiguousarray((places[1] + y.mean()).reshape(_SIDE, _SIDE), dtype=np.float32)
+    return cv2.remap(mask.astype(np.float32), columns, rows, cv2.INTER_LINEAR) > 0.5
+
+
+def _starts(count: int) -> list[int]:
+    """At most so many window starts, spread evenly over 0..count-1."""
+    return sorted({int(x) for x in np.linspace(0, count - 1, min(count, _MOST_WINDOWS)).round()}) if count > 0 else []
