@@ -154,7 +154,7 @@ def _storage(array: np.ndarray) -> dict[str, Any]:
     if array.size == 0:
         return {}
     chunks = tuple(min(n, _CHUNK_ROWS) if axis == 0 else n for axis, n in enumerate(array.shape))
-    if array.ndim >= 3 and array.nbytes > 1 << 16:
+    if array.ndim >= 3 and array.nbytes > 1 << 12:
         chunks = (1, min(array.shape[1], _CHUNK_ROWS), *array.shape[2:])
     nearly_constant = array.nbytes > RATIO_FROM_BYTES and np.count_nonzero(array) * MAX_RATIO < 8 * array.size
     packed = {} if nearly_constant else {"compression": "gzip", "compression_opts": 4, "shuffle": True}
