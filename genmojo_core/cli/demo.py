@@ -14,7 +14,7 @@ from typing import Any
 from genmojo_core.cli.output import say
 from genmojo_core.errors import GenmojoError
 
-_CLIP = "crossing"  # a named procedural clip
+_CLIP = "crossing-shapes"  # a named procedural clip
 _BUDGET = 60.0  # seconds of optimisation
 
 
@@ -67,11 +67,12 @@ def run_demo(args: argparse.Namespace) -> dict[str, Any]:
 
 
 def write_clip(folder: Path) -> Path:
-    """Generate the demo's clip into a folder; returns the clip's path. Raises GenmojoError("io")."""
-    from genmojo_core.clip import synthetic
+    """Generate the demo's clip into a folder and return it. Raises GenmojoError("io")."""
+    from genmojo_core.clip import synthetic, synthetic_files
 
     clip, truth = synthetic.generate(_CLIP)
-    return Path(synthetic.write(clip, truth, folder))
+    synthetic_files.write(clip, truth, folder)
+    return folder
 
 
 def open_app(scene: Path) -> bool:

@@ -131,18 +131,18 @@ def _prepare(args: argparse.Namespace, config: RunConfig) -> tuple[Clip, EffectP
                             pixel_aspect=args.pixel_aspect)  # fmt: skip
         tell(1.0)
     with progress("looking at the clip") as tell:
-        clip = complete(clip, boxes=_boxes(args, clip), progress=lambda _, share: tell(share))
+        clip = complete(clip, boxes=_boxes(args), progress=lambda _, share: tell(share))
     return clip, decide.plan(clip, config, overrides)
 
 
-def _boxes(args: argparse.Namespace, clip: Clip) -> list[Any]:
-    """The boxes given, in pixels of the clip as held."""
+def _boxes(args: argparse.Namespace) -> list[Any]:
+    """The boxes given, one object each, in the frames that are read."""
     if not args.box:
         return []
     from genmojo_core.estimate.masks import Box
 
-    sx, sy = clip.size[0] / clip.source_size[0], clip.size[1] / clip.source_size[1]
-    return [Box(frame, x0 * sx, y0 * sy, x1 * sx, y1 * sy) for frame, (x0, y0, x1, y1) in args.box]
+    first = args.frames[0] if args.frames else 0
+    return [Box(frame - first, *corners, label=i + 1) for i, (frame, corners) in enumerate(args.box)]
 
 
 class _Watched:

@@ -9,7 +9,7 @@ import numpy as np
 from genmojo_core.clip.cameras import View
 from genmojo_core.conventions import dc_to_rgb, orbit_camera
 from genmojo_core.errors import GenmojoError
-from genmojo_core.render.cpu import rasterize
+from genmojo_core.render.cpu.rasterize import rasterize
 from genmojo_core.render.rasterizer import Splats
 from genmojo_core.store.scene_file import BakedScene
 

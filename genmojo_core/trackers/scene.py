@@ -16,7 +16,7 @@ import numpy as np
 from genmojo_core.clip.cameras import View
 from genmojo_core.conventions import quaternion_to_matrix
 from genmojo_core.errors import GenmojoError
-from genmojo_core.render.cpu import rasterize
+from genmojo_core.render.cpu.rasterize import rasterize
 from genmojo_core.render.rasterizer import ALPHA_MAX, ALPHA_MIN, DILATION, FRUSTUM_CLAMP, Splats
 from genmojo_core.store.scene_file import BakedScene, Frame
 from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE, PointTracks
