@@ -53,24 +53,20 @@ class Layout:
 
 
 def find(path: Path) -> Layout:
-    """The layout behind a path.
+    """The layout behind a path that the user gave.
 
     Raises GenmojoError: "io" if there is nothing at the path or it cannot be read; "format" for a file that is neither
     image nor video; "empty" for a folder without frames; "argument" for a folder with several clips.
     """
-    if path.is_file():
-        return _file(path)
-    if not path.exists():
-        return _named_in_root(path)
-    images = path / IMAGES
-    if images.is_dir():
-        return _root(path, images)
-    if path.name == IMAGES:
-        return _root(path.parent, path)
-    above = next((p for p in path.parents if p.name == IMAGES), None)
-    if above is not None and image_files(path):
-        return _sequence(path, above)
-    return _plain(path)
+    try:
+        if path.is_file():
+            return _file(path)
+        if not path.exists():
+            return _named_in_root(path)
+        return _folder(path)
+    except OSError as error:
+        shown = str(path) if len(str(path)) < 200 else f"...{str(path)[-100:]}"
+        raise GenmojoError("io", f"cannot be read ({error.strerror})", shown, "check the path") from error
 
 
 def image_files(folder: Path) -> tuple[Path, ...]:
@@ -98,6 +94,19 @@ def subfolders(folder: Path) -> tuple[Path, ...]:
     """Folders directly in a folder, natural order, without hidden ones."""
     found = [p for p in _entries(folder) if p.is_dir() and not p.name.startswith(".")]
     return tuple(sorted(found, key=lambda p: _natural(p.name)))
+
+
+def _folder(path: Path) -> Layout:
+    """A folder of any layout."""
+    images = path / IMAGES
+    if images.is_dir():
+        return _root(path, images)
+    if path.name == IMAGES:
+        return _root(path.parent, path)
+    above = next((p for p in path.parents if p.name == IMAGES), None)
+    if above is not None and image_files(path):
+        return _sequence(path, above)
+    return _plain(path)
 
 
 def _file(path: Path) -> Layout:

@@ -56,6 +56,7 @@ class NpzFile:
         with _opened(self.path, name) as stream:
             _read_header(stream, self.where(name))
             data = _exactly(stream, header.nbytes, self.where(name))
+            stream.read(1)  # the end: here the zip compares its checksum
         flat = np.frombuffer(data, header.dtype)
         return flat.reshape(header.shape[::-1]).T if header.fortran else flat.reshape(header.shape)
 
@@ -73,6 +74,8 @@ class NpzFile:
                 data = _exactly(stream, size, self.where(name))
                 if i >= first:
                     yield np.frombuffer(data, header.dtype).reshape(header.shape[1:])
+            if end == header.shape[0]:
+                stream.read(1)
 
     def where(self, name: str) -> str:
         """File and array, for messages."""
