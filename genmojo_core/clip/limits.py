@@ -28,6 +28,7 @@ LIMITS: dict[str, Limit] = {
     "held_array_bytes": Limit(8 << 30, "bytes in one array that is read at once", "store fewer entries"),
     "array_names": Limit(1000, "arrays in one npz file", "keep only the arrays that are needed"),
     "array_rank": Limit(8, "axes in one array", "store it with fewer axes"),
+    "array_header": Limit(10_000, "bytes in the header of an array", "store plain numbers"),
     "tracks": Limit(200_000, "point tracks", "keep fewer points"),
     "meta_bytes": Limit(1 << 20, "bytes of JSON", "shorten it"),
     "name_length": Limit(200, "characters in a name", "shorten it"),

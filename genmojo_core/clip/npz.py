@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import math
 import zipfile
 import zlib
@@ -111,22 +112,35 @@ def open_npz(path: Path) -> NpzFile:
 
 
 def _read_header(stream: IO[bytes], where: str) -> Header:
-    """The npy header at the start of a stream."""
-    try:
-        version = np.lib.format.read_magic(stream)
-        read = {1: np.lib.format.read_array_header_1_0, 2: np.lib.format.read_array_header_2_0}[version[0]]
-        shape, fortran, dtype = read(stream)
-    except (ValueError, KeyError) as error:
-        raise GenmojoError("format", "is no numpy array", where, "write it again with numpy") from error
+    """The npy header at the start of a stream, read strictly: numpy's own reader also mends headers of Python 2."""
+    start = _exactly(stream, 8, where)
+    width = {1: 2, 2: 4, 3: 4}.get(start[6])
+    if start[:6] != b"\x93NUMPY" or width is None:
+        raise GenmojoError("format", "is no numpy array", where, "write it again with numpy")
+    length = int.from_bytes(_exactly(stream, width, where), "little")
+    check_limit("array_header", length, where)
+    shape, fortran, dtype = _declared(_exactly(stream, length, where), where)
     if dtype.hasobject:
         raise GenmojoError("unsafe_pickle", "holds Python objects, which could run code when read", where,
                            "store plain numbers")  # fmt: skip
     check_limit("array_rank", len(shape), where)
-    header = Header(tuple(int(n) for n in shape), dtype, bool(fortran))
+    header = Header(shape, dtype, fortran)
     check_limit("array_bytes", header.nbytes, where)
-    if min(header.shape, default=0) < 0:
-        raise GenmojoError("format", f"declares the shape {header.shape}", where, "write it again with numpy")
     return header
+
+
+def _declared(text: bytes, where: str) -> tuple[tuple[int, ...], bool, np.dtype]:
+    """Shape, order and dtype of a header's text, a Python dict of constants."""
+    try:
+        fields = ast.literal_eval(text.decode("utf-8").strip())
+        shape, fortran, dtype = fields["shape"], fields["fortran_order"], np.dtype(fields["descr"])
+        good = len(fields) == 3 and isinstance(fortran, bool) and isinstance(shape, tuple)
+        good = good and all(type(n) is int and 0 <= n < 2**48 for n in shape)
+    except (ValueError, TypeError, KeyError, SyntaxError, RecursionError, MemoryError):
+        good = False
+    if not good:
+        raise GenmojoError("format", "has a header that is no numpy array's", where, "write it again with numpy")
+    return shape, fortran, dtype
 
 
 def _check_member(info: zipfile.ZipInfo, header: Header, where: str) -> None:

@@ -146,6 +146,8 @@ def _pixel_aspect(stream: av.VideoStream, *, turned: bool) -> float | None:
 
 def _video_error(error: FFmpegError, where: str) -> GenmojoError:
     """What FFmpeg says, in one sentence."""
+    if isinstance(error, EOFError):
+        return GenmojoError("video", "holds no frame", where, "give a video with pictures")
     if isinstance(error, InvalidDataError):
         return GenmojoError(
             "video", "is no video, or its header is missing or damaged", where, "record or copy it again"
