@@ -32,8 +32,8 @@ def splat(
     picture, alpha = _draw(splats, channels, view, matrix, "RGB+D")
     features, depth = picture[..., :attached], picture[..., -1]
     if detached_channels:
-        still = Splats(*(part.detach() for part in (splats.means, splats.quats, splats.scales, splats.opacities)),
-                       splats.features)  # fmt: skip
+        fixed = [part.detach() for part in (splats.means, splats.quats, splats.scales, splats.opacities)]
+        still = Splats(fixed[0], fixed[1], fixed[2], fixed[3], splats.features)
         behind, _ = _draw(still, splats.features[:, attached:].float(), view, matrix.detach(), "RGB")
         features = torch.cat([features, behind], dim=-1)
     return Rendering(features, depth, alpha)
