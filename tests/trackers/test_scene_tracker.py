@@ -69,7 +69,7 @@ def test_hidden_and_out_of_view():
     state = found.state[0]
     behind = np.linalg.norm(front - path, axis=1) < 12
     gone = path[:, 0] < -2
-    free = (np.linalg.norm(front - path, axis=1) > 40) & (path[:, 0] > 4)
+    free = (np.linalg.norm(front - path, axis=1) > 60) & (path[:, 0] > 4)
     assert behind.any() and gone.any() and free.any()
     assert (state[behind] == OCCLUDED).all() and (state[gone] == OUT_OF_VIEW).all() and (state[free] == VISIBLE).all()
 
