@@ -147,7 +147,7 @@ def _non_rigid_motion(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule
 def _appearance_change(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
     percent = 100 * evidence.light
     said = f"Brightness changes by {percent:.0f} % over the clip" if percent >= 8 else "The light stays the same"
-    return Rule(percent, "% brightness", 8.0, "steady light measures under 6 % on the shared clips", f"{said}.",
+    return Rule(percent, "% brightness", 8.0, "steady light measures under 5 % on the shared clips", f"{said}.",
                 "" if len(clip) > 1 else "a single frame has one light")  # fmt: skip
 
 

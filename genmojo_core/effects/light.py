@@ -11,7 +11,7 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.estimate.flow import warp
 
 _DARKEST, _BRIGHTEST = 24, 235  # brightness outside is noise or clipped
-_FEWEST_PIXELS = 50
+_FEWEST_PIXELS = 300  # of a region: fewer make a chance walk over a long clip
 _STRAY = 0.15  # log brightness: pixels further from the median change are highlights or wrong flow
 
 
@@ -28,31 +28,36 @@ class LightChange:
 
 
 def light_change(clip: Clip) -> LightChange:
-    """Measure; regions too small or without valid flow count as unchanged, and so does a single frame."""
+    """Measure; a single frame counts as unchanged.
+
+    So does a step of a region that is too small, or where flow holds in less than half of it: the rest is chance (an
+    object passing behind another).
+    """
     steps = np.zeros((len(clip), clip.objects + 1))
     if clip.flow is None or clip.masks is None:
         return LightChange(0.0, np.zeros(clip.objects))
     kernel = np.ones((3, 3), np.uint8)
-    grey = [cv2.cvtColor(frame, cv2.COLOR_RGB2GRAY).astype(np.float32) for frame in clip.frames]
+    grey = [cv2.GaussianBlur(cv2.cvtColor(frame, cv2.COLOR_RGB2GRAY).astype(np.float32), (0, 0), 1.5)
+            for frame in clip.frames]  # fmt: skip
     for t in range(len(clip) - 1):
-        after = warp(grey[t + 1], clip.flow.value[t])
-        usable = clip.flow.valid[t] & clip.masks.valid[t] & (grey[t] > _DARKEST) & (grey[t] < _BRIGHTEST)
-        usable &= (after > _DARKEST / 2) & (after < 0.5 * (_BRIGHTEST + 255))
-        change = np.log(np.maximum(after, 1.0)) - np.log(np.maximum(grey[t], 1.0))
+        before, after = grey[t], warp(grey[t + 1], clip.flow.value[t])
+        mean = 0.5 * (before + after)  # chosen by both alike, or the choice itself would look like a change
+        usable = clip.flow.valid[t] & clip.masks.valid[t] & (mean > _DARKEST) & (mean < _BRIGHTEST)
         for label in range(clip.objects + 1):
             inside = cv2.erode((clip.masks.value[t] == label).astype(np.uint8), kernel) > 0
-            steps[t + 1, label] = _usual_change(change[inside & usable], int(inside.sum()))
+            chosen = inside & usable
+            if chosen.sum() >= max(_FEWEST_PIXELS, 0.5 * inside.sum()):
+                steps[t + 1, label] = log_gain(before[chosen], after[chosen])
     level = np.cumsum(steps, axis=0)
     change = 1.0 - np.exp(level.min(axis=0) - level.max(axis=0))
     return LightChange(float(change[0]), change[1:])
 
 
-def _usual_change(values: np.ndarray, pixels: int) -> float:
-    """Mean of the changes near their median: unlike the median itself it sees steps below one grey level.
+def log_gain(before: np.ndarray, after: np.ndarray) -> float:  # (N,), (N,) brightness > 0
+    """Logarithm of the brightness gain that most pixels share, from the totals of those near the median change.
 
-    0 where flow holds in less than half of the region's pixels: the rest is chance (an object passing behind another).
+    Totals keep steps far below one grey level, which a median would round away, and do not drift by interpolation.
     """
-    if len(values) < max(_FEWEST_PIXELS, 0.5 * pixels):
-        return 0.0
-    middle = float(np.median(values))
-    return float(values[np.abs(values - middle) <= _STRAY].mean())
+    change = np.log(after) - np.log(before)
+    usual = np.abs(change - np.median(change)) <= _STRAY
+    return float(np.log(after[usual].sum(dtype=np.float64) / before[usual].sum(dtype=np.float64)))

@@ -21,7 +21,7 @@ from genmojo_core.effects.objects import ObjectFacts
 # Limits of what rigid objects show, each between the rigid and the bending objects of the shared Blender clips.
 RIGID_MODE = 0.004  # of the object's size: fourth mode (rigid at most 0.0022 there, an animal or a player 0.005-0.016)
 RIGID_MODE_PX = 0.35  # pixels: error of the flow itself (rigid at most 0.25 there)
-RIGID_OUTLINE = 0.02  # of the object's size: mean outline shift (rigid at most 0.015 there, the bending cylinder 0.03)
+RIGID_OUTLINE = 0.02  # of the object's size: mean outline shift (rigid at most 0.017 there, the bending cylinder 0.03)
 OUTLINE_NOISE_PX = 0.3  # pixels a mask's outline shifts by sampling alone
 
 _FLOW_WINDOW = 6  # frames points are followed
@@ -30,7 +30,7 @@ _MOST_WINDOWS = 24  # of a long clip
 _FEWEST_POINTS = 16
 _MOST_POINTS = 1500
 _SIDE, _EXTENT = 64, 2.6  # outline patch: pixels, half width in standard deviations of the mask
-_TURNS = tuple(np.deg2rad(np.arange(-30, 31, 5)))
+_COARSE_TURNS, _FINE_TURNS = np.arange(-180, 180, 7.5), np.arange(-5, 5.1, 1.25)  # degrees
 
 
 @dataclass(frozen=True)
@@ -122,24 +122,37 @@ def _outline_change(clip: Clip, k: int, facts: ObjectFacts) -> float:
         length = int(np.argmin(np.append(whole[start : start + _OUTLINE_WINDOW], False)))
         if length < 3:
             continue
-        first, turned = _patch(masks[start], 0.0), [_patch(masks[start + length - 1], turn) for turn in _TURNS]
-        differing = min(float((first ^ patch).sum()) for patch in turned) / max(float(first.sum()), 1.0)
+        differing = _unlike(masks[start], masks[start + length - 1])
         area = math.sqrt(float(facts.area[start]) * float(facts.area[start + length - 1]))
         shift = differing * math.sqrt(area) / 4.0  # an outline of length 4 sqrt(area), as a square has
         worst = shift if math.isnan(worst) else max(worst, shift)
     return worst
 
 
-def _patch(mask: np.ndarray, turn: float) -> np.ndarray:  # (H, W) bool -> (64, 64) bool
-    """The mask with its spread made round and unit, turned by an angle in radians before."""
+def _unlike(mask: np.ndarray, other: np.ndarray) -> float:  # (H, W) bool each
+    """Share of the mask's area by which two masks differ after the affine change between them is taken out."""
+    patch, place = _patch(mask, _spread(mask), 0.0), _spread(other)
+    turn = 0.0
+    for turns in (_COARSE_TURNS, _FINE_TURNS):
+        differing = [float((patch ^ _patch(other, place, turn + step)).sum()) for step in turns]
+        best = int(np.argmin(differing))
+        turn += float(turns[best])
+    return differing[best] / max(float(patch.sum()), 1.0)
+
+
+def _spread(mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:  # (H, W) bool -> (2,), (2, 2)
+    """Centre of a mask and the symmetric root of its covariance, in pixels (at least half a pixel each way)."""
     y, x = np.nonzero(mask)
     values, axes = np.linalg.eigh(np.cov(np.stack([x, y]).astype(np.float64)))
-    root = axes @ np.diag(np.sqrt(np.maximum(values, 0.25))) @ axes.T
-    c, s = math.cos(turn), math.sin(turn)
+    return np.array([x.mean(), y.mean()]), axes @ np.diag(np.sqrt(np.maximum(values, 0.25))) @ axes.T
+
+
+def _patch(mask: np.ndarray, spread: tuple[np.ndarray, np.ndarray], degrees: float) -> np.ndarray:
+    """(64, 64) bool: the mask with its spread made round and unit, after a turn."""
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     grid = np.linspace(-_EXTENT, _EXTENT, _SIDE)
-    places = root @ np.array([[c, -s], [s, c]]) @ np.stack(np.meshgrid(grid, grid)).reshape(2, -1)
-    columns = np.ascontiguousarray((places[0] + x.mean()).reshape(_SIDE, _SIDE), dtype=np.float32)
-    rows = np.ascontiguousarray((places[1] + y.mean()).reshape(_SIDE, _SIDE), dtype=np.float32)
+    places = spread[1] @ np.array([[c, -s], [s, c]]) @ np.stack(np.meshgrid(grid, grid)).reshape(2, -1)
+    columns, rows = ((places + spread[0][:, None]).reshape(2, _SIDE, _SIDE)).astype(np.float32)
     return cv2.remap(mask.astype(np.float32), columns, rows, cv2.INTER_LINEAR) > 0.5
 
 
