@@ -70,9 +70,17 @@ def find(path: Path) -> Layout:
 
 
 def image_files(folder: Path) -> tuple[Path, ...]:
-    """Image files directly in a folder in natural order (numbers as numbers); hidden files are passed over."""
-    files = [p for p in _entries(folder) if p.suffix.lower() in EXTENSIONS and not p.name.startswith(".")]
-    return tuple(sorted(files, key=lambda p: _natural(p.stem)))
+    """Image files directly in a folder in natural order (numbers as numbers); hidden files are passed over.
+
+    Raises GenmojoError: "io" if it cannot be read, "schema" if two files differ only in their extension.
+    """
+    found = [p for p in _entries(folder) if p.suffix.lower() in EXTENSIONS and not p.name.startswith(".")]
+    files = tuple(sorted(found, key=lambda p: (_natural(p.stem), p.suffix)))
+    for one, two in zip(files, files[1:], strict=False):
+        if one.stem == two.stem:
+            raise GenmojoError("schema", f"holds both {one.name} and {two.name}", str(folder),
+                               "keep frames and masks in folders of their own")  # fmt: skip
+    return files
 
 
 def number(stem: str) -> int | None:
@@ -182,6 +190,10 @@ def _plain(path: Path) -> Layout:
         return Layout(name, path, video=videos[0], masks=masks, root=path)
     if videos:
         raise GenmojoError("argument", f"holds {len(videos)} videos", str(path), "give one of them")
+    clips = [p for p in subfolders(path) if (p / IMAGES).is_dir() or image_files(p)]
+    if clips:
+        raise GenmojoError("argument", f"holds {len(clips)} folders with frames", str(path),
+                           f"give one of them, such as {clips[0]}")  # fmt: skip
     raise GenmojoError("empty", "holds no frames", str(path), "give a folder of images, an image or a video")
 
 

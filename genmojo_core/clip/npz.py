@@ -106,7 +106,7 @@ def open_npz(path: Path) -> NpzFile:
                 _check_member(archive.getinfo(member), headers[member[:-4]], f"{path}: {member[:-4]}")
     except OSError as error:
         raise GenmojoError("io", f"cannot be read ({error.strerror})", str(path), "check the path") from error
-    except (zipfile.BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOFError) as error:
+    except (zipfile.BadZipFile, zlib.error, RuntimeError, EOFError, ValueError) as error:
         raise GenmojoError("format", "is no npz file or is damaged", str(path), "write it again with numpy") from error
     return NpzFile(path, headers)
 
@@ -156,7 +156,7 @@ def _opened(path: Path, name: str) -> Iterator[IO[bytes]]:
     try:
         with zipfile.ZipFile(path) as archive, archive.open(f"{name}.npy") as stream:
             yield stream
-    except (zipfile.BadZipFile, zlib.error, EOFError) as error:
+    except (zipfile.BadZipFile, zlib.error, RuntimeError, EOFError, ValueError) as error:
         raise GenmojoError("format", "is damaged", f"{path}: {name}", "write it again with numpy") from error
     except OSError as error:
         raise GenmojoError("io", f"cannot be read ({error.strerror})", str(path), "check the path") from error

@@ -99,12 +99,12 @@ class _Stage:
             for eye in eyes
         ]
         self.orbit_centre = np.mean([m[:3, 3] for row in self.matrices for m in row], axis=0)
-        self._backdrops: dict[tuple[bytes, float], list[tuple[Hits, np.ndarray]]] = {}
+        self._backdrops: dict[tuple[bytes, float], list[np.ndarray]] = {}
 
     def picture(self, t: int) -> tuple[np.ndarray, Hits]:
         """(H, W, 3) uint8 RGB of frame t and the hits at its pixel centres."""
         total = np.zeros((self.what.size[1], self.what.size[0], 3))
-        for offset, (_, backdrop) in zip(QUARTERS, self._backdrop(t), strict=True):
+        for offset, backdrop in zip(QUARTERS, self._backdrop(t), strict=True):
             hits = self.cast(t, self.views[t], offset, alone=True)
             colour = shapes.shade(hits, self.what.shapes, self.matrices[t], self.lights[t])
             total += np.where((hits.owner >= 0)[..., None], colour, backdrop)
@@ -136,16 +136,12 @@ class _Stage:
         matrix = self.matrices[t][owner]
         return points @ matrix[:3, :3].T + matrix[:3, 3]
 
-    def _backdrop(self, t: int) -> list[tuple[Hits, np.ndarray]]:
-        """Ground and wall per quarter of a pixel; made once while camera and light stand still."""
+    def _backdrop(self, t: int) -> list[np.ndarray]:
+        """(H, W, 3) colours of ground and wall per quarter of a pixel; kept while camera and light stand still."""
         key = (self.views[t].world_to_camera.tobytes(), float(self.lights[t]))
         if key not in self._backdrops:
-            self._backdrops.clear()
-            made = []
-            for offset in QUARTERS:
-                hits = shapes.cast(self.views[t], [], [], self.what.wall, offset)
-                made.append((hits, shapes.shade(hits, (), [], self.lights[t])))
-            self._backdrops[key] = made
+            casts = [shapes.cast(self.views[t], [], [], self.what.wall, offset) for offset in QUARTERS]
+            self._backdrops = {key: [shapes.shade(hits, (), [], self.lights[t]) for hits in casts]}
         return self._backdrops[key]
 
 

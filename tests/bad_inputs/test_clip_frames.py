@@ -52,6 +52,15 @@ def test_nothing_there(tmp_path):
     refused(tmp_path / ("x" * 5000), "io")
 
 
+def test_folders_that_hold_something_else(tmp_path):
+    """A folder of clips names one of them; masks beside frames are not taken for frames."""
+    make_clip(tmp_path / "one")
+    refused(tmp_path, "argument", "holds 1 folders with frames", "one")
+    put_image(tmp_path / "mixed" / "00000.jpg", picture())
+    put_mask(tmp_path / "mixed" / "00000.png", labels())
+    refused(tmp_path / "mixed", "schema", "holds both 00000.jpg and 00000.png")
+
+
 def test_odd_arguments(tmp_path):
     root = make_clip(tmp_path / "clip")
     refused(root, "argument", "'sound'", ignore=("sound",))
