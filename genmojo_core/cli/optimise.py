@@ -53,6 +53,8 @@ def run_optimize(args: argparse.Namespace) -> dict[str, Any]:
     from genmojo_core.store.atomic import check_writable
 
     config = preset(args.preset, **arguments.config_changes(args))
+    if args.resume and args.run_dir is None:
+        raise GenmojoError("argument", "there is no run folder to resume from", "--resume", "give --run-dir")
     check_writable(args.output)
     start = time.monotonic()
     clip, plan = _prepare(args, config)
@@ -142,7 +144,7 @@ def _boxes(args: argparse.Namespace) -> list[Any]:
     from genmojo_core.estimate.masks import Box
 
     first = args.frames[0] if args.frames else 0
-    return [Box(frame - first, *corners, label=i + 1) for i, (frame, corners) in enumerate(args.box)]
+    return [Box(frame - first, x0, y0, x1, y1, i + 1) for i, (frame, (x0, y0, x1, y1)) in enumerate(args.box)]
 
 
 class _Watched:

@@ -155,7 +155,7 @@ def _read_rgba(path: Path, size: tuple[int, int]) -> tuple[np.ndarray, np.ndarra
     stored = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
     if stored is None or stored.ndim != 3 or stored.shape[2] != 4:
         raise GenmojoError("format", "is no RGBA picture", str(path))
-    values = stored[..., [2, 1, 0, 3]].astype(np.float32) / np.iinfo(stored.dtype).max
+    values = stored[..., [2, 1, 0, 3]].astype(np.float32) / (255 if stored.dtype == np.uint8 else 65535)
     values[..., :3] *= values[..., 3:]
     small = cv2.resize(values, size, interpolation=cv2.INTER_AREA)
     return small[..., :3], small[..., 3]

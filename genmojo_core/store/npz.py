@@ -10,6 +10,7 @@ from __future__ import annotations
 import io
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -39,7 +40,8 @@ def read_arrays(path: str | Path) -> dict[str, np.ndarray]:
 def write_arrays(path: str | Path, arrays: Mapping[str, np.ndarray]) -> None:
     """Write an npz file, whole or not at all. Raises GenmojoError("io")."""
     memory = io.BytesIO()
-    np.savez_compressed(memory, **{key: np.asarray(value) for key, value in arrays.items()})
+    plain: dict[str, Any] = {key: np.asarray(value) for key, value in arrays.items()}
+    np.savez_compressed(memory, **plain)
     write_bytes(path, memory.getbuffer())
 
 
@@ -49,7 +51,7 @@ def write_tracks(tracks: PointTracks, path: str | Path) -> None:
     if lost.any():
         point, frame = (int(i) for i in np.argwhere(lost)[0])
         raise GenmojoError("value", f"track {point} is visible in frame {frame} but has no position", str(path))
-    arrays = {"xy": tracks.xy.astype(np.float32), "state": tracks.state.astype(np.uint8),
+    arrays: dict[str, np.ndarray] = {"xy": tracks.xy.astype(np.float32), "state": tracks.state.astype(np.uint8),
               "object": tracks.object.astype(np.int64), "size": np.array(tracks.size, np.int64)}  # fmt: skip
     for key, dtype in _OPTIONAL.items():
         value = getattr(tracks, key)

@@ -128,7 +128,7 @@ def _decode_gaussians(arrays: Mapping[str, np.ndarray], frames: int) -> dict[str
     def get(path: str, *shape: int) -> np.ndarray:
         return arrays[path].astype(np.float32) if path in arrays else np.zeros(shape, np.float32)
 
-    objects = ()
+    objects: tuple[SceneObject, ...] = ()
     if "/objects/id" in arrays:
         columns = [arrays[f"/objects/{key}"] for key in ("id", "color", "is_background", "first", "count")]
         objects = tuple(

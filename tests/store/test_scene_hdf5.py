@@ -1,4 +1,4 @@
-"""Scene files: what was written comes back; whatever somebody else made is refused in one sentence, nothing silently."""
+"""Scene files: what was written comes back; what others made is refused in one sentence; nothing silently changes."""
 
 from __future__ import annotations
 
