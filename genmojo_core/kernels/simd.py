@@ -162,6 +162,17 @@ def splat8(typingctx: Any, value: types.Type) -> Any:
 
 
 @instruction
+def broadcast8(typingctx: Any, array: types.Type, index: types.Type) -> Any:
+    """One element of a flat float32 array in all lanes; the index is not negative."""
+
+    def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        data = context.make_array(signature.args[0])(context, builder, arguments[0]).data
+        return _broadcast(builder, builder.load(builder.gep(data, [arguments[1]])))
+
+    return Float8(array, types.intp), codegen
+
+
+@instruction
 def load8(typingctx: Any, array: types.Type, index: types.Type) -> Any:
     """Eight consecutive elements of a flat float32 array from `index` on."""
 

@@ -21,6 +21,7 @@ import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.kernels.simd import (
+    broadcast8,
     exp2_8,
     fma,
     load4x2,
@@ -107,12 +108,13 @@ def moments(drawing: Drawing, at: int, mask: int, corner: tuple, scratch: tuple)
         going = seen & (rest > STOP)
         store8(state, cell, select8(seen, select8(rest > STOP, rest, np.float32(0) - t), t))
         w = select8(going, part, zero)
-        q = load8(state, cell + 2 * LANES)
+        q, r = load8(state, cell + 2 * LANES), zero
         for c in range(drawing.attached >> 1):
             here = cell + (HEADER + 2 * c) * LANES
             f = at + GEOMETRY + 2 * c
-            q = fma(records[f], load8(state, here), q)
-            q = fma(records[f + 1], load8(state, here + LANES), q)
+            q = fma(broadcast8(records, f), load8(state, here), q)
+            r = fma(broadcast8(records, f + 1), load8(state, here + LANES), r)
+        q = q + r
         s = load8(state, cell + LANES) - w * q
         store8(state, cell + LANES, s)
         slope = t * q - s / (np.float32(1) - alpha)
@@ -132,15 +134,28 @@ def moments(drawing: Drawing, at: int, mask: int, corner: tuple, scratch: tuple)
 def channel_sums(slots: int, count: int, scratch: tuple) -> None:
     """Second loop of one entry: sum of w g_c for every slot, as vectors behind the moments."""
     state, _, weights, cells, sums = scratch
-    for c in range(0, slots, 2):
-        first, second = splat8(np.float32(0)), splat8(np.float32(0))
+    zero = splat8(np.float32(0))
+    for c in range(0, slots - 2, 4):
+        s0, s1, s2, s3 = zero, zero, zero, zero
         for k in range(count):
             w = load8(weights, k * LANES)
-            here = cells[k] + (HEADER + c) * LANES
-            first = fma(w, load8(state, here), first)
-            second = fma(w, load8(state, here + LANES), second)
-        store8(sums, (MOMENTS + c) * LANES, first)
-        store8(sums, (MOMENTS + c + 1) * LANES, second)
+            here = cells[np.uint64(k)] + (HEADER + c) * LANES
+            s0 = fma(w, load8(state, here), s0)
+            s1 = fma(w, load8(state, here + LANES), s1)
+            s2 = fma(w, load8(state, here + 2 * LANES), s2)
+            s3 = fma(w, load8(state, here + 3 * LANES), s3)
+        for k, s in enumerate((s0, s1, s2, s3)):
+            store8(sums, (MOMENTS + c + k) * LANES, s)
+    if slots & 2:
+        c = slots - 2
+        s0, s1 = zero, zero
+        for k in range(count):
+            w = load8(weights, k * LANES)
+            here = cells[np.uint64(k)] + (HEADER + c) * LANES
+            s0 = fma(w, load8(state, here), s0)
+            s1 = fma(w, load8(state, here + LANES), s1)
+        store8(sums, (MOMENTS + c) * LANES, s0)
+        store8(sums, (MOMENTS + c + 1) * LANES, s1)
 
 
 @kernel

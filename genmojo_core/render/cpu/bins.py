@@ -17,6 +17,7 @@ from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.render.cpu.project import GEOMETRY, Ellipses, Lens
 
 TILE = 16  # pixels
+SHIFT = 4  # TILE as a power of two
 ENTRY_LIMIT = 2**24  # entries of one view: 1 GiB of gradient rows
 RADIX_BITS = 11
 
@@ -80,19 +81,32 @@ def gather(start: int, stop: int, order: np.ndarray, ellipses: Ellipses, channel
 @inlined
 def _tiles(box: np.ndarray, rank: int) -> tuple:
     """First and last tile column, first and last tile row of a splat."""
-    return box[rank, 0] // TILE, box[rank, 1] // TILE, box[rank, 2] // TILE, box[rank, 3] // TILE
+    return box[rank, 0] >> SHIFT, box[rank, 1] >> SHIFT, box[rank, 2] >> SHIFT, box[rank, 3] >> SHIFT
 
 
 @kernel
-def count_entries(box: np.ndarray, tiles_x: int, tiles_y: int, first_slot: np.ndarray, tile_start: np.ndarray) -> None:
-    """Fill first_slot (M + 1,) and tile_start (T + 1,), both int64, zero on entry."""
+def count_slots(box: np.ndarray, first_slot: np.ndarray) -> tuple[int, int]:
+    """Fill first_slot (M + 1,) int64; the number of all entries and the rank of the widest splat."""
+    first_slot[0] = 0
+    worst, most = 0, 0
     for rank in range(box.shape[0]):
         x0, x1, y0, y1 = _tiles(box, rank)
-        first_slot[rank + 1] = first_slot[rank] + (x1 - x0 + 1) * (y1 - y0 + 1)
+        tiles = (x1 - x0 + 1) * (y1 - y0 + 1)
+        first_slot[rank + 1] = first_slot[rank] + tiles
+        if tiles > most:
+            worst, most = rank, tiles
+    return first_slot[box.shape[0]], worst
+
+
+@kernel
+def count_entries(box: np.ndarray, tiles_x: int, tile_start: np.ndarray) -> None:
+    """Fill tile_start (T + 1,) int64, zero on entry."""
+    for rank in range(box.shape[0]):
+        x0, x1, y0, y1 = _tiles(box, rank)
         for y in range(y0, y1 + 1):
             for x in range(x0, x1 + 1):
                 tile_start[y * tiles_x + x + 1] += 1
-    for tile in range(tiles_x * tiles_y):
+    for tile in range(tile_start.size - 1):
         tile_start[tile + 1] += tile_start[tile]
 
 
@@ -118,20 +132,19 @@ def bin_splats(lens: Lens, order: np.ndarray, box: np.ndarray) -> Bins:
     Raises GenmojoError("budget") where splats cover so many tiles that the gradients would not fit into memory.
     """
     tiles_x, tiles_y = -(-lens.width // TILE), -(-lens.height // TILE)
-    spans = box.astype(np.int64) // TILE
-    tiles = (spans[:, 1] - spans[:, 0] + 1) * (spans[:, 3] - spans[:, 2] + 1)
-    entries = int(tiles.sum())
+    first_slot = np.empty(len(order) + 1, np.int64)
+    entries, worst = count_slots(box, first_slot)
     if entries > ENTRY_LIMIT:
-        worst = int(np.argmax(tiles))
+        tiles = int(first_slot[worst + 1] - first_slot[worst])
         raise GenmojoError(
             "budget",
             f"{len(order)} splats cover {entries} tiles of a {lens.width} x {lens.height} image, the limit is"
-            f" {ENTRY_LIMIT}; the widest is splat {int(order[worst])} with {int(tiles[worst])} tiles",
+            f" {ENTRY_LIMIT}; the widest is splat {int(order[worst])} with {tiles} tiles",
             "rasteriser",
             "remove or shrink splats that fill the view, or render a smaller image",
         )
-    first_slot, tile_start = np.zeros(len(order) + 1, np.int64), np.zeros(tiles_x * tiles_y + 1, np.int64)
-    count_entries(box, tiles_x, tiles_y, first_slot, tile_start)
+    tile_start = np.zeros(tiles_x * tiles_y + 1, np.int64)
+    count_entries(box, tiles_x, tile_start)
     rank, slot = np.empty(entries, np.int32), np.empty(entries, np.int32)
     bins = Bins(order, box, first_slot, tile_start, rank, slot, tiles_x, tiles_y)
     scatter_entries(bins)

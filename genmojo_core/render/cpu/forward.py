@@ -22,6 +22,7 @@ import numpy as np
 from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.kernels.simd import (
     bits,
+    broadcast8,
     exp2_8,
     fma,
     load8,
@@ -89,8 +90,8 @@ def pixel_centres(places: np.ndarray) -> None:
 @inlined
 def exponent(records: np.ndarray, at: int, dx: object, dy: object) -> object:
     """log2 of the unclamped alpha of one record at pixel offsets dx, dy (Float8)."""
-    inner = fma(records[at + 2], dx, records[at + 3] * dy)
-    return fma(dx, inner, fma(records[at + 4] * dy, dy, records[at + 5]))
+    inner = fma(broadcast8(records, at + 2), dx, broadcast8(records, at + 3) * dy)
+    return fma(dx, inner, fma(broadcast8(records, at + 4) * dy, dy, broadcast8(records, at + 5)))
 
 
 @inlined
@@ -122,8 +123,8 @@ def blend(drawing: Drawing, at: int, mask: int, corner: tuple, scratch: tuple) -
         for c in range(slots >> 1):
             here = cell + (1 + 2 * c) * LANES
             f = at + GEOMETRY + 2 * c
-            store8(state, here, fma(w, records[f], load8(state, here)))
-            store8(state, here + LANES, fma(w, records[f + 1], load8(state, here + LANES)))
+            store8(state, here, fma(w, broadcast8(records, f), load8(state, here)))
+            store8(state, here + LANES, fma(w, broadcast8(records, f + 1), load8(state, here + LANES)))
         if bits(t > np.float32(0)) == 0:
             finished |= 1 << block
     return seen_blocks, finished
