@@ -27,10 +27,13 @@ def make_plate(
     stack = np.full((len(chosen), *frames.shape[1:]), np.nan, np.float32)
     for i, t in enumerate(chosen):
         where = carry(cameras.view(reference), cameras.view(int(t)), depth)
-        color = cv2.remap(frames[t], where, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-        ok = cv2.remap(free[t].astype(np.uint8), where, None, cv2.INTER_NEAREST, borderMode=cv2.BORDER_CONSTANT) > 0
+        color = cv2.remap(frames[t], where[..., 0], where[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+        inside = cv2.remap(
+            free[t].astype(np.uint8), where[..., 0], where[..., 1], cv2.INTER_NEAREST, borderMode=cv2.BORDER_CONSTANT
+        )
+        ok = np.asarray(inside) > 0
         stack[i][ok] = color[ok]
-    seen = np.isfinite(stack[..., 0]).any(axis=0)
+    seen = np.asarray(np.isfinite(stack[..., 0]).any(axis=0))
     median = masked_median(stack)
     plate = np.where(seen[..., None], median, 0).round().astype(np.uint8)
     return paint(plate, ~seen), seen
@@ -84,7 +87,7 @@ def plate_depth(
         column, row = np.rint(where[:, 0]).astype(int), np.rint(where[:, 1]).astype(int)
         inside = (column >= 0) & (column < w) & (row >= 0) & (row < h) & (z > 0)
         stack[i, row[inside], column[inside]] = z[inside]
-    seen = np.isfinite(stack).any(axis=0)
+    seen = np.asarray(np.isfinite(stack).any(axis=0))
     return fill_smoothly(masked_median(stack), seen), seen
 
 
@@ -100,8 +103,10 @@ def fill_smoothly(values: np.ndarray, known: np.ndarray) -> np.ndarray:  # (H, W
         value, weight = levels[-1]
         size = ((value.shape[1] + 1) // 2, (value.shape[0] + 1) // 2)
         mean_weight = cv2.resize(weight, size, interpolation=cv2.INTER_AREA)
-        mean = cv2.resize(value * weight, size, interpolation=cv2.INTER_AREA) / np.maximum(mean_weight, 1e-6)
-        levels.append((mean, (mean_weight > 0).astype(np.float32)))
+        mean = cv2.resize(value * weight, size, interpolation=cv2.INTER_AREA) / np.maximum(
+            mean_weight, np.float32(1e-6)
+        )
+        levels.append((np.asarray(mean, np.float32), (mean_weight > 0).astype(np.float32)))
     value, weight = levels[-1]
     result = np.full_like(value, np.sum(value * weight) / max(float(weight.sum()), 1e-6))
     for value, weight in reversed(levels):

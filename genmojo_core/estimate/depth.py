@@ -5,6 +5,8 @@ Scene units of a guess are heights of the camera above the ground: only the orde
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 
@@ -18,6 +20,7 @@ _RELIEF = 0.7  # how far a body bulges, relative to its radius in the image
 _GAP = 0.02  # log depth left between two bodies where they touch
 _MOST_CHANGE = 0.05  # of the depth per frame, METHOD.md section 3
 _OWN_CHANGE = 0.02  # of it for an object's own approach; the rest is left for keeping the order
+_BEHIND = 1.25  # how much further than the furthest object the wall stands
 _MOST_APPROACH = 0.5  # log depth an object may wander from its usual place
 
 
@@ -75,20 +78,26 @@ def guess_depth(
     """
     aspect = float(cameras.K[0, 1, 1] / cameras.K[0, 0, 0])
     shapes = measure_shapes(labels, objects, aspect)
-    ground = guess_ground(cameras.view(0), shapes.usual_row())
-    log_depth = _on_ground(Stage(ground, 1.0), shapes, cameras)
-    thickness = np.clip(_RELIEF * shapes.radius / cameras.K[0, 1, 1], 1e-3, 0.3)
-    log_depth = keep_order(log_depth, votes, thickness)
-    stage = Stage(ground, 1.25 * float(np.exp(log_depth + thickness).max(initial=1.0)))
+    stage = guess_stage(shapes, cameras)
+    thickness = _thickness(shapes, cameras)
+    log_depth = keep_order(_on_ground(stage, shapes, cameras), votes, thickness)
+    stage = replace(stage, wall=max(stage.wall, _BEHIND * float(np.exp(log_depth + thickness).max(initial=1.0))))
     depth = np.stack([stage.depth(cameras.view(t)) for t in range(len(labels))])
     plate = stage.depth(cameras.view(reference))
-    for t, k in zip(*np.nonzero(shapes.seen), strict=True):
+    for t, k in np.argwhere(shapes.seen).tolist():
         mask = labels[t] == k + 1
         in_front = np.isin(labels[t], np.flatnonzero(votes[t, :, k] > 0) + 1)
         base = float(np.exp(log_depth[t, k]))
         depth[t][mask] = (base * (1 - thickness[k] * rounded(mask, in_front, aspect)))[mask]
-        plate = _behind(plate, cameras, (int(t), reference), mask, base * (1 + thickness[k] + _GAP))
+        plate = _behind(plate, cameras, (t, reference), mask, base * (1 + thickness[k] + _GAP))
     return depth.astype(np.float32), plate.astype(np.float32)
+
+
+def guess_stage(shapes: Shapes, cameras: Cameras) -> Stage:
+    """Ground under the objects' lowest rows, and a wall a quarter further than the furthest object on it."""
+    ground = Stage(guess_ground(cameras.view(0), shapes.usual_row()), 1.0)
+    furthest = _on_ground(ground, shapes, cameras) + _thickness(shapes, cameras)
+    return replace(ground, wall=_BEHIND * float(np.exp(furthest).max(initial=1.0)))
 
 
 def keep_order(log_depth: np.ndarray, votes: np.ndarray, thickness: np.ndarray) -> np.ndarray:
@@ -135,12 +144,17 @@ def smooth_series(values: np.ndarray, most_change: float = _MOST_CHANGE) -> np.n
     return np.concatenate([smooth[:1], smooth[:1] + np.cumsum(change, axis=0)]).reshape(values.shape)
 
 
+def _thickness(shapes: Shapes, cameras: Cameras) -> np.ndarray:  # (K,)
+    """Half depth of every body relative to its distance."""
+    return np.clip(_RELIEF * shapes.radius / cameras.K[0, 1, 1], 1e-3, 0.3)
+
+
 def _on_ground(stage: Stage, shapes: Shapes, cameras: Cameras) -> np.ndarray:  # (T, K) log depth
     """Log depth of every object in every frame, seen or not, by its lowest row and its size."""
     t, objects = shapes.seen.shape
     result = np.zeros((t, objects))
     for k in range(objects):
-        frames = np.flatnonzero(shapes.seen[:, k])
+        frames = np.flatnonzero(shapes.seen[:, k]).tolist()
         if len(frames) == 0:
             continue
         contact = np.full(t, np.nan)

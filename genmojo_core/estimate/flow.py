@@ -108,6 +108,6 @@ def _search(a: np.ndarray, b: np.ndarray) -> np.ndarray:  # (H, W) uint8 each ->
     bottom, right = max(0, _SMALLEST_SIDE - h), max(0, _SMALLEST_SIDE - w)
     if bottom or right:
         a, b = (cv2.copyMakeBorder(i, 0, bottom, 0, right, cv2.BORDER_REPLICATE) for i in (a, b))
-    dis = cv2.DISOpticalFlow_create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM)
-    flow = dis.calc(a, b, None)[:h, :w]
+    dis = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_MEDIUM)
+    flow = np.asarray(dis.calc(a, b, np.zeros((*a.shape, 2), np.float32)))[:h, :w]
     return np.nan_to_num(flow, nan=0.0, posinf=0.0, neginf=0.0).astype(np.float32)

@@ -110,8 +110,8 @@ def _neighbours(labels: np.ndarray, mask: np.ndarray) -> bool:
 
 def _median(values: np.ndarray | float, otherwise: np.ndarray | None = None) -> float:
     """Median of what is finite; of `otherwise` when there is nothing; NaN when that has nothing either."""
-    values = np.atleast_1d(values)
-    values = values[np.isfinite(values)]
-    if len(values):
-        return float(np.median(values))
+    listed = np.atleast_1d(values)
+    listed = listed[np.isfinite(listed)]
+    if len(listed):
+        return float(np.median(listed))
     return float("nan") if otherwise is None else _median(otherwise)
