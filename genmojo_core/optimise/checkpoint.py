@@ -25,8 +25,11 @@ from genmojo_core.store.atomic import write_bytes
 FORMAT = 1
 
 
-def save(folder: Path, scene: Scene4D, optimiser: torch.optim.Optimizer, meta: Mapping[str, Any]) -> Path:
-    """Write the scene, the optimiser's moments and JSON-able `meta`; returns the JSON's path.
+def save(
+    folder: Path, scene: Scene4D, optimiser: torch.optim.Optimizer, meta: Mapping[str, Any],
+    extra: Mapping[str, Tensor],
+) -> Path:  # fmt: skip
+    """Write the scene, the optimiser's moments, `extra` tensors and JSON-able `meta`; returns the JSON's path.
 
     Raises GenmojoError("io") when the folder cannot be written.
     """
@@ -35,6 +38,7 @@ def save(folder: Path, scene: Scene4D, optimiser: torch.optim.Optimizer, meta: M
         for key, value in optimiser.state.get(parameter, {}).items():
             if torch.is_tensor(value):
                 tensors[f"optimiser/{name}/{key}"] = value.detach().contiguous()
+    tensors.update({f"extra/{name}": value for name, value in extra.items()})
     data = save_tensors(_unshared(tensors))
     digest = hashlib.sha256(data).hexdigest()
     path = folder / f"checkpoint-{digest[:16]}.safetensors"
@@ -52,8 +56,10 @@ def save(folder: Path, scene: Scene4D, optimiser: torch.optim.Optimizer, meta: M
     return target
 
 
-def load(folder: Path, scene: Scene4D, optimiser: torch.optim.Optimizer) -> dict[str, Any]:
-    """Put a checkpoint's tensors into a freshly lifted scene and its optimiser; returns the saved `meta`.
+def load(
+    folder: Path, scene: Scene4D, optimiser: torch.optim.Optimizer
+) -> tuple[dict[str, Any], dict[str, Tensor]]:
+    """Put a checkpoint's tensors into a freshly lifted scene and its optimiser; returns the saved `meta` and `extra`.
 
     Raises:
         GenmojoError: "io" when there is none, "corrupt" when the checksum does not match, "version" for a newer
@@ -77,7 +83,8 @@ def load(folder: Path, scene: Scene4D, optimiser: torch.optim.Optimizer) -> dict
         if name.startswith("optimiser/"):
             parameter, key = name.removeprefix("optimiser/").rsplit("/", 1)
             optimiser.state[by_name[parameter]][key] = value
-    return dict(header["meta"])
+    extra = {name.removeprefix("extra/"): value for name, value in tensors.items() if name.startswith("extra/")}
+    return dict(header["meta"]), extra
 
 
 def exists(folder: Path) -> bool:

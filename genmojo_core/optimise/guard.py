@@ -72,7 +72,7 @@ class Guard:
         if clean:
             clean = self._clear_rows()
         if clean:
-            self.bad_steps = 0
+            self.bad_steps = self.rollbacks = 0
             return "step"
         self.bad_steps += 1
         return "rollback" if self.bad_steps >= BAD_IN_A_ROW else "skip"

@@ -115,8 +115,8 @@ def order_loss(
     height, width = target.labels.shape
     x, y = pixels[:, 0].detach(), pixels[:, 1].detach()
     inside = (x >= 0) & (x < width) & (y >= 0) & (y < height) & (depths.detach() > 0)
-    column = x.clamp(0, width - 1).long()
-    row = y.clamp(0, height - 1).long()
+    column = torch.where(inside, x, 0.0).long()
+    row = torch.where(inside, y, 0.0).long()
     label = target.labels[row, column]
     other = inside & (label > 0) & (label != owner + 1)
     if not bool(other.any()):

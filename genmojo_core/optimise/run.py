@@ -27,6 +27,7 @@ from genmojo_core.optimise.lift import lift, track_supervision
 from genmojo_core.optimise.motion import initial_motion
 from genmojo_core.optimise.objective import Objective, Outcome
 from genmojo_core.optimise.progress import Clock, Progress
+from genmojo_core.optimise.regularise import Neighbours
 from genmojo_core.optimise.schedule import (
     Stage,
     draw_frames,
@@ -80,6 +81,17 @@ class Run:
         return bake(self.scene, self.clip, Provenance(config, self.plan.to_json(), self.progress.curve, metrics))
 
     def __iter__(self) -> Iterator[Event]:
+        """The events; see the class."""
+        # torch's own threads wait actively for one another: on a busy machine a step takes ten times as long with two
+        # of them as with one. The kernels that matter bring threads that sleep (kernels/threads.py).
+        threads = torch.get_num_threads()
+        torch.set_num_threads(1)
+        try:
+            yield from self._events()
+        finally:
+            torch.set_num_threads(threads)
+
+    def _events(self) -> Iterator[Event]:
         torch.manual_seed(self.config.seed)
         yield StageStarted(*self.clock.now(), "motion", 0, "following every object through the clip")
         yield from self._prepare()
@@ -113,15 +125,16 @@ class Run:
         if self.resume:
             if self.run_dir is None:
                 raise GenmojoError("argument", "there is no run folder to resume from", "--resume", "give --run-dir")
-            meta = checkpoint.load(self.run_dir, self.scene, self.optimiser)
+            meta, extra = checkpoint.load(self.run_dir, self.scene, self.optimiser)
             self.progress.restore(meta)
             self.clock.add(meta["seconds"], meta["cpu_seconds"])
             self.generator.set_state(torch.tensor(meta["generator"], dtype=torch.uint8))
-            self.objective.refresh_neighbours()
+        self._new_statistics()
+        if self.resume:
+            self._restore_working_state(extra)
         with torch.no_grad():
             first = self.objective.evaluate([self.reference], False, self.generator)
         self.first_psnr = first.foreground[0][1] if first.foreground else 0.0
-        self._new_statistics()
         self.guard = Guard(self.scene, self.optimiser)
 
     def _stage(self, stage: Stage) -> Iterator[Event]:
@@ -183,6 +196,25 @@ class Run:
             (o.gaussians, density.GradientStatistics(len(o.gaussians))) for o in self.scene.objects
         ]
 
+    def _working_state(self) -> dict[str, torch.Tensor]:
+        """What the loop carries from step to step besides the scene and the optimiser."""
+        state = {}
+        for i, (_, statistics) in enumerate(self.statistics):
+            state[f"total.{i}"], state[f"seen.{i}"] = statistics.total, statistics.seen
+        for i, near in enumerate(self.objective.neighbours):
+            if near is not None:
+                state[f"index.{i}"], state[f"weight.{i}"] = near.index, near.weight
+        return state
+
+    def _restore_working_state(self, state: dict[str, torch.Tensor]) -> None:
+        """The inverse of `_working_state`."""
+        for i, (_, statistics) in enumerate(self.statistics):
+            statistics.total, statistics.seen = state[f"total.{i}"], state[f"seen.{i}"]
+        self.objective.neighbours = [
+            None if near is None else Neighbours(state[f"index.{i}"], state[f"weight.{i}"])
+            for i, near in enumerate(self.objective.neighbours)
+        ]
+
     def _over(self) -> bool:
         return self.stopped or self.progress.out_of_time(self.clock)
 
@@ -192,6 +224,6 @@ class Run:
         wall, cpu = self.clock.now()
         meta = {**self.progress.state(), "seconds": wall, "cpu_seconds": cpu,
                 "generator": self.generator.get_state().tolist()}  # fmt: skip
-        path = checkpoint.save(self.run_dir, self.scene, self.optimiser, meta)
+        path = checkpoint.save(self.run_dir, self.scene, self.optimiser, meta, self._working_state())
         self.progress.checkpointed(self.clock)
         yield Checkpointed(*self.clock.now(), self.progress.step, str(path))
