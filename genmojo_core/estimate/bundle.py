@@ -83,6 +83,18 @@ def errors(bundle: Bundle) -> np.ndarray:  # (M,) pixels
     return np.linalg.norm(_linearise(bundle).residual, axis=1)
 
 
+def world_points(bundle: Bundle, most_error: float) -> np.ndarray:  # (N, 3)
+    """Points in world coordinates that are seen three times or more with a median error under that many pixels."""
+    found = errors(bundle)
+    good = np.array([
+        len(own) >= 3 and float(np.median(own)) < most_error
+        for own in (found[bundle.point == i] for i in range(len(bundle.start)))
+    ], dtype=bool)  # fmt: skip
+    ray = np.column_stack([bundle.at_start, np.ones(len(good))]) @ np.linalg.inv(bundle.lens()).T
+    homogeneous = np.column_stack([ray * np.exp(bundle.log_depth)[:, None], np.ones(len(ray))])
+    return np.einsum("nij,nj->ni", np.linalg.inv(bundle.poses)[bundle.start], homogeneous)[good, :3]
+
+
 def _cost(bundle: Bundle) -> float:
     """Cauchy cost of the observations plus the priors."""
     squared = (_linearise(bundle).residual ** 2).sum(axis=1)

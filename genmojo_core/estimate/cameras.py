@@ -15,7 +15,7 @@ import numpy as np
 from genmojo_core.clip.cameras import Cameras
 from genmojo_core.clip.clip import Clip
 from genmojo_core.estimate.background_points import PointPaths, drift, follow_background
-from genmojo_core.estimate.bundle import Bundle, adjust, errors
+from genmojo_core.estimate.bundle import Bundle, adjust, errors, world_points
 
 FOVY = 49.1  # degrees; METHOD.md section 2, used where nothing better is known
 _STILL_SHARE = 0.004  # of the short side: a background that goes less far over the whole clip means a still camera
@@ -23,6 +23,7 @@ _FEWEST_POINTS = 12  # of a frame
 _CLEARLY_BETTER = 0.8  # share of the turning camera's error that a moving one must stay under
 _KNOWN, _GUESSED = 0.03, 0.7  # deviation of log depth where depth is given, where it is guessed
 _FOCAL_DOUBT = 0.3
+_POINT_ERROR = 1.5  # pixels
 _FOCAL_GAIN = 0.9  # share of the error that a free focal length must stay under to be believed
 
 
@@ -34,6 +35,7 @@ class CameraEstimate:
         cameras: one per frame, camera 0 is the identity. valid: (T,) bool, enough background points were seen.
         kind: "still", "turning" or "moving".
         displacement: how far the background went at most, pixels. residual: median reprojection error, pixels.
+        points: (N, 3) background points in world coordinates; none unless the camera moves.
     """
 
     cameras: Cameras
@@ -41,6 +43,7 @@ class CameraEstimate:
     kind: str
     displacement: float
     residual: float
+    points: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -72,11 +75,13 @@ def estimate_cameras(
         [[True], (paths.seen() & (paths.start[:, None] < np.arange(t))).sum(axis=0)[1:] >= _FEWEST_POINTS]
     )
     lens, kind, poses, residual = intrinsics, "still", np.tile(np.eye(4), (t, 1, 1)), displacement
+    points = np.zeros((0, 3))
     if displacement > _STILL_SHARE * min(h, w):
         bundle, kind = solve_motion(paths, intrinsics, believed)
         poses, lens, residual = bundle.poses, bundle.lens(), _usual_error(bundle)
+        points = world_points(bundle, _POINT_ERROR) if kind == "moving" else points
     cameras = Cameras(np.tile(lens, (t, 1, 1)).astype(np.float64), poses, (w, h))
-    return CameraEstimate(cameras, enough, kind, displacement, residual)
+    return CameraEstimate(cameras, enough, kind, displacement, residual, points)
 
 
 def solve_motion(paths: PointPaths, intrinsics: np.ndarray, believed: Believed) -> tuple[Bundle, str]:

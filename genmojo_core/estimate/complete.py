@@ -53,9 +53,9 @@ def complete(
     tell("cameras", 0.6)
     prediction = models.depth.predict(clip) if models.depth else None
     clip = _with_model_depth(clip, prediction, free)
-    clip = _with_cameras(clip, free)
+    clip, points = _with_cameras(clip, free)
     tell("depth", 0.7)
-    clip = _with_depth(clip, free)
+    clip = _with_depth(clip, free, points)
     tell("background", 0.85)
     clip = _with_background(clip, free)
     tell("background", 1.0)
@@ -114,10 +114,10 @@ def _with_model_depth(clip: Clip, prediction: DepthPrediction | None, free: np.n
     return clip.with_channels(depth=Channel(merged, own.valid | valid, f"{own.source}; gaps from {prediction.source}"))
 
 
-def _with_cameras(clip: Clip, free: np.ndarray) -> Clip:
-    """Cameras of all frames, estimated where they were not given."""
+def _with_cameras(clip: Clip, free: np.ndarray) -> tuple[Clip, np.ndarray]:
+    """Cameras of all frames, estimated where they were not given, and the background points (N, 3) this gave."""
     if clip.cameras is not None:
-        return clip
+        return clip, np.zeros((0, 3))
     lens = cameras.default_intrinsics(clip)
     found = cameras.estimate_cameras(clip.frames, free, lens, _believed(clip, lens))
     motion = {
@@ -125,12 +125,13 @@ def _with_cameras(clip: Clip, free: np.ndarray) -> Clip:
         "turning": "the camera's motion is a guess: it is taken to turn on the spot",
         "moving": "the camera's motion is a guess from background points",
     }[found.kind]
-    return _told(
+    told = _told(
         clip,
         f"{motion}; its field of view is taken to be {_fovy(found.cameras):.3g} degrees high",
         cameras=Channel(found.cameras, found.valid, f"estimated: {found.kind} camera from background points"),
         world_up=np.array([0.0, -1.0, 0.0]),
     )
+    return told, found.points
 
 
 def _believed(clip: Clip, lens: np.ndarray) -> cameras.Believed:
@@ -149,7 +150,7 @@ def _fovy(rig: Cameras) -> float:
     return float(np.rad2deg(2 * np.arctan(0.5 * rig.size[1] / rig.K[0, 1, 1])))
 
 
-def _with_depth(clip: Clip, free: np.ndarray) -> Clip:
+def _with_depth(clip: Clip, free: np.ndarray, points: np.ndarray) -> Clip:
     """Depth of every pixel and of the plate."""
     labels, rig = _labels(clip), _rig(clip)
     if clip.depth is not None:
@@ -162,7 +163,7 @@ def _with_depth(clip: Clip, free: np.ndarray) -> Clip:
             background_depth=Channel(plate, seen, "estimated: median depth outside the masks, filled behind objects")
         )
     votes = order.front_votes(labels, clip.objects, _channel(clip.flow, "flow").value)
-    guess, plate = depth.guess_depth(labels, clip.objects, rig, votes, clip.background_frame)
+    guess, plate = depth.guess_depth(labels, clip.objects, rig, votes, clip.background_frame, points)
     source = f"estimated: {depth.METHOD}"
     return _told(
         clip,

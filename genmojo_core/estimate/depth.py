@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 
 from genmojo_core.clip.cameras import Cameras
-from genmojo_core.estimate.ground import Stage, guess_ground
+from genmojo_core.estimate.ground import PointStage, Stage, guess_ground
 from genmojo_core.estimate.shapes import Shapes, measure_shapes, rounded
 from genmojo_core.estimate.views import carry, depth_in
 
@@ -69,6 +69,7 @@ def guess_depth(
     cameras: Cameras,
     votes: np.ndarray,  # (T, K, K), positive: i in front of j
     reference: int = 0,
+    points: np.ndarray | None = None,  # (N, 3) world, of the background
 ) -> tuple[np.ndarray, np.ndarray]:  # (T, H, W) float32, (H, W) float32
     """Guessed depth of what is seen in every frame, and of the background in the reference frame's camera.
 
@@ -78,10 +79,16 @@ def guess_depth(
     """
     aspect = float(cameras.K[0, 1, 1] / cameras.K[0, 0, 0])
     shapes = measure_shapes(labels, objects, aspect)
-    stage = guess_stage(shapes, cameras)
+    stage: Stage | PointStage = guess_stage(shapes, cameras)
+    if points is not None and len(points):
+        stage = PointStage(points, guess_stage(shapes, cameras))
     thickness = _thickness(shapes, cameras)
-    log_depth = keep_order(_on_ground(stage, shapes, cameras), votes, thickness)
-    stage = replace(stage, wall=max(stage.wall, _BEHIND * float(np.exp(log_depth + thickness).max(initial=1.0))))
+    log_depth = _on_ground(stage, shapes, cameras)
+    if isinstance(stage, PointStage):
+        log_depth = _in_front(log_depth, stage, labels, cameras, thickness)
+    log_depth = keep_order(log_depth, votes, thickness)
+    if isinstance(stage, Stage):
+        stage = replace(stage, wall=max(stage.wall, _BEHIND * float(np.exp(log_depth + thickness).max(initial=1.0))))
     depth = np.stack([stage.depth(cameras.view(t)) for t in range(len(labels))])
     plate = stage.depth(cameras.view(reference))
     for t, k in np.argwhere(shapes.seen).tolist():
@@ -149,7 +156,7 @@ def _thickness(shapes: Shapes, cameras: Cameras) -> np.ndarray:  # (K,)
     return np.clip(_RELIEF * shapes.radius / cameras.K[0, 1, 1], 1e-3, 0.3)
 
 
-def _on_ground(stage: Stage, shapes: Shapes, cameras: Cameras) -> np.ndarray:  # (T, K) log depth
+def _on_ground(stage: Stage | PointStage, shapes: Shapes, cameras: Cameras) -> np.ndarray:  # (T, K) log depth
     """Log depth of every object in every frame, seen or not, by its lowest row and its size."""
     t, objects = shapes.seen.shape
     result = np.zeros((t, objects))
@@ -172,6 +179,19 @@ def _on_ground(stage: Stage, shapes: Shapes, cameras: Cameras) -> np.ndarray:  #
         approach = np.interp(np.arange(t), np.flatnonzero(known), agreed[known]) if known.any() else np.zeros(t)
         result[:, k] = usual + smooth_series(np.clip(approach, -_MOST_APPROACH, _MOST_APPROACH), _OWN_CHANGE)
     return result
+
+
+def _in_front(
+    log_depth: np.ndarray, stage: PointStage, labels: np.ndarray, cameras: Cameras, thickness: np.ndarray
+) -> np.ndarray:  # (T, K)
+    """Objects pulled in front of the measured background that their masks cover (its nearest tenth left aside)."""
+    need = np.zeros_like(log_depth)
+    for t in range(len(labels)):
+        plane = stage.depth(cameras.view(t))
+        for k in np.unique(labels[t][labels[t] > 0]) - 1:
+            nearest = float(np.percentile(plane[labels[t] == k + 1], 10))
+            need[t, k] = max(0.0, log_depth[t, k] + thickness[k] - np.log(nearest))
+    return log_depth - spread(need)
 
 
 def _behind(
