@@ -1,7 +1,7 @@
 """First motion of every object, from flow and depth, before any Gaussian exists (ARCHITECTURE.md section 6).
 
-Outward from a reference frame each next pose is predicted, tried in several versions, matched by stabilised flow to
-several earlier frames and solved; then all poses are solved together from links between many pairs of frames.
+`initial_motion` gives a rigid path, a smooth bend and point tracks per object; `carry` moves any query with them.
+Coordinates are world coordinates of the clip's cameras and raster pixels of the frames held.
 """
 
 from __future__ import annotations
@@ -11,14 +11,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from genmojo_core.clip.clip import Clip
-from genmojo_core.optimise.poses import Path, Problem, Sight, camera_centre, project, rays, solve, still_path
-from genmojo_core.optimise.surfaces import ObjectSurfaces, object_surfaces
-from genmojo_core.trackers.search import best_shifts
-from genmojo_core.trackers.stabilise import Link, Matcher, sample
+from genmojo_core.clip.cameras import Cameras
+from genmojo_core.clip.clip import Channel, Clip
+from genmojo_core.optimise.bend import Bend, carried
+from genmojo_core.optimise.motion_solver import Found, ObjectSolver
+from genmojo_core.optimise.poses import Path, camera_centre, project, rays
+from genmojo_core.optimise.surfaces import ObjectSurfaces, Patch, object_surfaces
+from genmojo_core.trackers.stabilise import Matcher, flat_shade
 
-_POINTS = 250  # places of a frame that take part in a solve
-_LINKS = (1, 2, 4, 8)  # frame distances of the joint solve
+_TRACKS = 600  # points per object
+_NEW_VIEW = 0.5  # radians the object turns before another frame adds points
+_HIDDEN = 0.25  # confidence of a place that is predicted but not seen, of the pose's
 
 
 @dataclass(frozen=True)
@@ -29,10 +32,13 @@ class ObjectMotion:
         ref_frame: frame in which the points below are given.
         pose: (T, 4, 4) float64, maps world points on the object at ref_frame to world points at frame t (rigid).
         confidence: (T,) 0..1; 0 = interpolated through occlusion or absence.
-        track_xyz: (P, 3) world points on the object at ref_frame.
+        track_xyz: (P, 3) world points on the object, as it is at ref_frame.
         track_xy: (P, T, 2) held raster pixels.
-        track_conf: (P, T) 0..1.
+        track_conf: (P, T) 0..1; a quarter of the pose's where the place is predicted but hidden.
         residual_px: median distance of matched points to the rigid motion: evidence of non-rigidity.
+        path: the poses as rotation about the object's centre and place of the centre.
+        bend: smooth non-rigid displacements before the pose; zero where there is no evidence.
+        depth: T windows with the object's depth, improved by the motion where depth was a guess; None where not seen.
     """
 
     ref_frame: int
@@ -42,24 +48,33 @@ class ObjectMotion:
     track_xy: np.ndarray
     track_conf: np.ndarray
     residual_px: float
+    path: Path
+    bend: Bend
+    depth: tuple[Patch | None, ...]
+
+    def points_at(self, t: int, points: np.ndarray) -> np.ndarray:  # (..., 3) world at ref_frame -> at frame t
+        """Points on the object at the reference frame, bent and posed as in frame t."""
+        return carried(self.path, self.bend, self.ref_frame, t, points)
 
 
 def initial_motion(clip: Clip, ref_frames: Sequence[int] | None = None) -> list[ObjectMotion]:
-    """Rigid motion and point tracks of every object of a complete clip.
+    """Motion and point tracks of every object of a complete clip.
 
     Args:
         clip: with masks, depth and cameras (given or estimated).
         ref_frames: reference frame per object; by default the first frame in which the object is seen at more than
             80 % of its largest area.
 
-    Returns one motion per object, in the order of `clip.object_ids`.
+    Returns one motion per object, in the order of `clip.object_ids`. Raises GenmojoError("schema") if a channel is
+    missing.
     """
     matcher = Matcher()
+    shade = np.stack([flat_shade(frame) for frame in clip.frames])
     motions = []
     for k in range(clip.objects):
-        surfaces = object_surfaces(clip, k)
+        surfaces = object_surfaces(clip, k, shade)
         ref = default_reference(surfaces.area) if ref_frames is None else int(ref_frames[k])
-        motions.append(_ObjectSolver(surfaces, ref, matcher).run())
+        motions.append(_motion(ObjectSolver(surfaces, ref, matcher).run()))
     return motions
 
 
@@ -68,180 +83,97 @@ def default_reference(area: np.ndarray) -> int:  # (T,) visible pixels
     return int(np.argmax(area > 0.8 * max(float(area.max()), 1.0)))
 
 
-class _ObjectSolver:
-    """The work for one object; `run` does all of it."""
+def carry(
+    motions: Sequence[ObjectMotion],
+    clip: Clip,
+    queries_t: np.ndarray,  # (N,) frames
+    queries_xy: np.ndarray,  # (N, 2) held raster pixels
+    object_index: np.ndarray,  # (N,) 0..K-1
+) -> np.ndarray:  # (N, T, 2) held raster pixels
+    """Where points of objects go in all frames: lifted by depth, moved by pose and bend, projected.
 
-    def __init__(self, surfaces: ObjectSurfaces, ref: int, matcher: Matcher) -> None:
-        self.surfaces, self.matcher, self.ref = surfaces, matcher, ref
-        self.frames = len(surfaces.surfaces)
-        self.seen = np.array([s is not None for s in surfaces.surfaces])
-        if not self.seen[ref] and self.seen.any():
-            self.ref = int(np.argmax(self.seen))
-        self._choose_points()
-
-    def run(self) -> ObjectMotion:
-        """Outward pass, then joint solves with fresh links."""
-        if not self.seen.any():
-            return _nothing(self.frames, self.ref)
-        path = self._outward()
-        sights: list[Sight] = []
-        every = np.ones(self.frames, bool)
-        for _ in range(2):
-            sights = self._all_sights(path)
-            path, _ = solve(path, self._problem(sights), every, every, rounds=8)
-        return self._result(path, sights)
-
-    # --- preparation
-
-    def _choose_points(self) -> None:
-        """At most _POINTS grid places per frame, spread evenly; their rays and depths in one list."""
-        self.cells: list[np.ndarray] = []
-        self.start = np.zeros(self.frames + 1, np.int64)
-        origin, ray, depth = [np.zeros((0, 3))], [np.zeros((0, 3))], [np.zeros(0)]
-        cameras = self.surfaces.cameras
-        for t, surface in enumerate(self.surfaces.surfaces):
-            cells = np.zeros((0, 2), np.int64)
-            if surface is not None:
-                cells = np.argwhere(surface.grid.inside)
-                cells = cells[:: max(len(cells) // _POINTS, 1)][: 2 * _POINTS]
-                xy = surface.grid.xy[cells[:, 0], cells[:, 1]].astype(np.float64)
-                origin.append(np.tile(camera_centre(cameras, t), (len(xy), 1)))
-                ray.append(rays(cameras, t, xy))
-                depth.append(sample(surface.depth, xy).astype(np.float64))
-            self.cells.append(cells)
-            self.start[t + 1] = self.start[t] + len(cells)
-        self.origin, self.ray, self.depth = np.concatenate(origin), np.concatenate(ray), np.concatenate(depth)
-
-    def _problem(self, sights: list[Sight]) -> Problem:
-        """The solve with these sights."""
-        size, measured = self.surfaces.size, self.surfaces.measured
-        return Problem(self.surfaces.cameras, self.origin, self.ray, self.depth, size, tuple(sights),
-                       surface_sigma=0.01 * size if measured else 0.0,
-                       depth_sigma=0.0 if measured else 0.15 * size)  # fmt: skip
-
-    # --- links
-
-    def _link(self, path: Path, s: int, t: int) -> Link | None:
-        """Match frame s to frame t as the path predicts."""
-        surface = self.surfaces.surfaces[s]
-        if surface is None or self.surfaces.surfaces[t] is None:
-            return None
-        predicted = project(self.surfaces.cameras, t, path.between(s, t, surface.points)).astype(np.float32)
-        return self.matcher.link(self.surfaces.layer, surface.grid, t, predicted)
-
-    def _sight(self, link: Link | None, s: int, t: int) -> Sight | None:
-        """The link's matches at the chosen points."""
-        target = self.surfaces.surfaces[t]
-        if link is None or target is None:
-            return None
-        rows, cols = self.cells[s].T
-        weight = link.weight[rows, cols].astype(np.float64)
-        good = weight > 0.05
-        if good.sum() < 6:
-            return None
-        xy = link.xy[rows, cols][good].astype(np.float64)
-        normal = sample(target.normal, xy).astype(np.float64)
-        length = np.linalg.norm(normal, axis=1, keepdims=True)
-        normal = np.where(length > 0.9, normal / np.maximum(length, 1e-9), 0.0)
-        index = self.start[s] + np.nonzero(good)[0]
-        return Sight(s, t, index, xy, weight[good], self.surfaces.world(t, xy), normal)
-
-    def _all_sights(self, path: Path) -> list[Sight]:
-        """Sights between all frames at the distances of _LINKS, both ways, and with the reference frame."""
-        pairs = {(s, t) for s in range(self.frames) for d in _LINKS for t in (s - d, s + d) if 0 <= t < self.frames}
-        pairs |= {(self.ref, t) for t in range(self.frames)} - {(self.ref, self.ref)}
-        sights = (self._sight(self._link(path, s, t), s, t) for s, t in sorted(pairs))
-        return [sight for sight in sights if sight is not None]
-
-    # --- outward pass
-
-    def _outward(self) -> Path:
-        """Poses one after the other, from the reference frame to both ends."""
-        surface = self.surfaces.surfaces[self.ref]
-        inside = surface.points[surface.grid.inside]
-        path = still_path(self.frames, np.median(inside, axis=0), self.ref)
-        for direction in (1, -1):
-            done = [self.ref]
-            t = self.ref + direction
-            while 0 <= t < self.frames:
-                path = self._next(path, t, direction, done)
-                if self.seen[t]:
-                    done.append(t)
-                t += direction
-        return path
-
-    def _next(self, path: Path, t: int, direction: int, done: list[int]) -> Path:
-        """The path with the pose of frame t found from the frames done before it."""
-        rotation, position = _continued(path, t, direction)
-        path = path.moved(t, rotation, position)
-        if not self.seen[t]:
-            return path
-        sources = [s for s in done if abs(s - t) in (1, 2, 4)] or done[-1:]
-        path = self._best_start(path, sources[-1], t)
-        free, known = np.zeros(self.frames, bool), np.zeros(self.frames, bool)
-        free[t] = True
-        known[[*done, t]] = True
-        known[min(done[0], t) : max(done[0], t) + 1] = True
-        for _ in range(2):
-            sights = [self._sight(self._link(path, s, t), s, t) for s in sources]
-            path, _ = solve(path, self._problem([x for x in sights if x is not None]), free, known)
-        return path
-
-    def _best_start(self, path: Path, s: int, t: int) -> Path:
-        """The path as predicted, or shifted to one of the best overlaps, whichever matches frame t best."""
-        surface = self.surfaces.surfaces[s]
-        carried = path.between(s, t, surface.points)
-        predicted = project(self.surfaces.cameras, t, carried).astype(np.float32)
-        shifts = best_shifts(self.surfaces.layer, surface.grid, t, predicted)
-        pose = self.surfaces.cameras.world_to_camera[t]
-        z = float(np.median((carried[surface.grid.inside] @ pose[:3, :3].T + pose[:3, 3])[:, 2]))
-        k = self.surfaces.cameras.K[t]
-        best, best_score = path, -1.0
-        for shift in [np.zeros(2), *shifts]:
-            move = np.array([shift[0] / k[0, 0] * z, shift[1] / k[1, 1] * z, 0.0]) @ pose[:3, :3]
-            tried = path.moved(t, path.rotation[t], path.position[t] + move)
-            link = self._link(tried, s, t)
-            if link is not None and link.score > best_score:
-                best, best_score = tried, link.score
-        return best
-
-    # --- result
-
-    def _result(self, path: Path, sights: list[Sight]) -> ObjectMotion:
-        """Pose, confidence and tracks."""
-        support = np.zeros(self.frames)
-        residuals = [np.zeros(0)]
-        for sight in sights:
-            support[sight.target] += sight.weight.sum()
-            world = self.origin[sight.index] + self.depth[sight.index, None] * self.ray[sight.index]
-            seen = project(self.surfaces.cameras, sight.target, path.between(sight.source, sight.target, world))
-            residuals.append(np.linalg.norm(seen - sight.xy, axis=1))
-        usual = max(float(np.median(support[self.seen])), 1e-9)
-        confidence = np.clip(2.0 * support / usual, 0.0, 1.0)
-        confidence[self.ref] = 1.0
-        points = slice(self.start[self.ref], self.start[self.ref + 1])
-        xyz = self.origin[points] + self.depth[points, None] * self.ray[points]
-        pose = path.matrices()
-        moved = np.einsum("tij,pj->pti", pose[:, :3, :3], xyz) + pose[:, :3, 3]
-        xy = np.stack([project(self.surfaces.cameras, t, moved[:, t]) for t in range(self.frames)], axis=1)
-        conf = np.tile(confidence, (len(xyz), 1))
-        return ObjectMotion(self.ref, pose, confidence, xyz, xy, conf, float(np.median(np.concatenate(residuals))))
+    A query in a frame where its object is not seen is lifted at the depth of the object's centre.
+    """
+    cameras: Cameras = clip.cameras.value if clip.cameras is not None else None
+    out = np.zeros((len(queries_xy), len(clip), 2))
+    for k in np.unique(object_index):
+        motion = motions[k]
+        for q in np.unique(queries_t[object_index == k]):
+            chosen = (object_index == k) & (queries_t == q)
+            world = _lifted(motion, cameras, int(q), np.asarray(queries_xy[chosen], np.float64))
+            for t in range(len(clip)):
+                out[chosen, t] = project(cameras, t, carried(motion.path, motion.bend, int(q), t, world))
+    return out
 
 
-def _continued(path: Path, t: int, direction: int) -> tuple[np.ndarray, np.ndarray]:
-    """Rotation and position of frame t if the last motion goes on."""
-    last, before = t - direction, t - 2 * direction
-    if not 0 <= before < len(path.position) or last == path.ref:
-        return path.rotation[last], path.position[last]
-    turn = path.rotation[last] @ path.rotation[before].T
-    return turn @ path.rotation[last], 2 * path.position[last] - path.position[before]
+def improved_depth(clip: Clip, motions: Sequence[ObjectMotion]) -> Clip:
+    """The clip with the depth of its objects replaced by what their motion told; measured depth stays as it is."""
+    if clip.depth is None or clip.masks is None or clip.depth.given:
+        return clip
+    depth = clip.depth.value.copy()
+    for k, motion in enumerate(motions):
+        mask = clip.object_mask(k)
+        for t, patch in enumerate(motion.depth):
+            if patch is not None:
+                h, w = patch.depth.shape
+                box = slice(patch.top, patch.top + h), slice(patch.left, patch.left + w)
+                depth[t][box] = np.where(mask[t][box], patch.depth, depth[t][box])
+    return clip.with_channels(depth=Channel(depth, clip.depth.valid, f"{clip.depth.source}, shaped by motion"))
 
 
-def _nothing(frames: int, ref: int) -> ObjectMotion:
-    """The motion of an object that is never seen."""
-    pose = np.tile(np.eye(4), (frames, 1, 1))
-    return ObjectMotion(ref, pose, np.zeros(frames), np.zeros((0, 3)), np.zeros((0, frames, 2)),
-                        np.zeros((0, frames)), 0.0)  # fmt: skip
+def _lifted(motion: ObjectMotion, cameras: Cameras, q: int, xy: np.ndarray) -> np.ndarray:  # (N, 2) -> (N, 3) world
+    """World points of image places on the object in frame q."""
+    patch = motion.depth[q]
+    if patch is not None:
+        depth = patch.lookup(patch.depth, xy)
+    else:
+        depth = np.full(len(xy), (cameras.world_to_camera[q] @ [*motion.path.position[q], 1.0])[2])
+    return camera_centre(cameras, q) + rays(cameras, q, xy) * depth[:, None]
 
 
-__all__ = ["ObjectMotion", "default_reference", "initial_motion"]
+def _motion(found: Found) -> ObjectMotion:
+    """The result with its tracks."""
+    surfaces, path, bend = found.surfaces, found.path, found.bend
+    xyz = _track_points(surfaces, path, bend)
+    xy = np.zeros((len(xyz), len(path.position), 2))
+    conf = np.zeros(xy.shape[:2])
+    for t in range(xy.shape[1]):
+        world = carried(path, bend, path.ref, t, xyz)
+        xy[:, t] = project(surfaces.cameras, t, world)
+        conf[:, t] = found.confidence[t] * np.where(_seen(surfaces, t, xy[:, t], world), 1.0, _HIDDEN)
+    depth = tuple(None if s is None else s.patch for s in surfaces.surfaces)
+    return ObjectMotion(path.ref, path.matrices(), found.confidence, xyz, xy, conf, found.residual_px, path, bend,
+                        depth)  # fmt: skip
+
+
+def _track_points(surfaces: ObjectSurfaces, path: Path, bend: Bend) -> np.ndarray:  # (P, 3) world at the reference
+    """Surface points of the reference frame and of frames that see the object from another side, evenly thinned."""
+    views: list[int] = []
+    order = sorted(range(len(path.position)), key=lambda t: (t != path.ref, -surfaces.area[t]))
+    for t in order:
+        turns = [np.arccos(np.clip((np.trace(path.rotation[t] @ path.rotation[v].T) - 1) / 2, -1, 1)) for v in views]
+        if surfaces.surfaces[t] is not None and (not views or min(turns) > _NEW_VIEW):
+            views.append(t)
+    parts = [np.zeros((0, 3))]
+    for t in views:
+        surface = surfaces.surfaces[t]
+        if surface is not None:
+            inside = surface.points[surface.grid.inside]
+            keep = np.linspace(0, len(inside) - 1, min(max(_TRACKS // len(views), 1), len(inside))).astype(int)
+            parts.append(carried(path, bend, t, path.ref, inside[keep]))
+    return np.concatenate(parts)
+
+
+def _seen(surfaces: ObjectSurfaces, t: int, xy: np.ndarray, world: np.ndarray) -> np.ndarray:  # -> (P,) bool
+    """Which points lie on the object's mask in frame t and not behind its own surface there."""
+    surface = surfaces.surfaces[t]
+    if surface is None:
+        return np.zeros(len(xy), bool)
+    height, width = surfaces.layer.mask.shape[1:]
+    cell = np.floor(xy).astype(np.int64)
+    within = ((cell >= 0) & (cell < [width, height])).all(axis=1)
+    cell = np.clip(cell, 0, [width - 1, height - 1])
+    pose = surfaces.cameras.world_to_camera[t]
+    z = (world @ pose[:3, :3].T + pose[:3, 3])[:, 2]
+    front = z < surface.patch.lookup(surface.patch.depth, xy) + 0.08 * surfaces.size
+    return within & surfaces.layer.mask[t][cell[:, 1], cell[:, 0]] & front

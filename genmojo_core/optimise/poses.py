@@ -60,6 +60,7 @@ class Sight:
         weight: (N,) 0..1.
         surface: (N, 3) world points of the target's surface at xy.
         normal: (N, 3) unit normals there; zero where unknown.
+        facing: (N, 2) image normals if the points lie on an outline, which says nothing along itself; else None.
     """
 
     source: int
@@ -69,6 +70,7 @@ class Sight:
     weight: np.ndarray
     surface: np.ndarray
     normal: np.ndarray
+    facing: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
@@ -94,6 +96,7 @@ class Problem:
     pixel_sigma: float = 1.0
     surface_sigma: float = 0.0
     depth_sigma: float = 0.0
+    turn_weight: float = 0.0  # per rad^2 of turning between neighbouring frames
 
 
 def still_path(frames: int, centre: np.ndarray, ref: int) -> Path:
@@ -151,6 +154,8 @@ def solve(
             if free[sight.source] or free[sight.target]:
                 _add_sight(normal, right, shape, sight, problem, path, depth, free, slot)
         _add_smoothness(normal, right, path, (free, known), slot, problem.size)
+        if problem.turn_weight > 0:
+            _add_stillness(normal, right, path, (free, known), slot, problem.turn_weight)
         step, depth_step = shape.eliminate(normal, right, depth - prior)
         depth = depth + depth_step
         path = _stepped(path, step, free, slot)
@@ -198,15 +203,9 @@ def _add_sight(
     before = problem.origin[index] + depth[index, None] * problem.ray[index] - path.position[s]
     after = before @ turn.T
     world = after + path.position[t]
-    jacobian, error = _image_rows(problem, t, world, sight.xy)
-    scale = _weights(np.linalg.norm(error, axis=1) / problem.pixel_sigma, sight.weight) / problem.pixel_sigma**2
-    rows, errors, weights = jacobian, error, np.repeat(scale[:, None], 2, axis=1)
-    if problem.surface_sigma > 0:
-        gap = np.einsum("ni,ni->n", sight.normal, sight.surface - world)
-        pull = _weights(np.abs(gap) / problem.surface_sigma, sight.weight) / problem.surface_sigma**2
-        rows = np.concatenate([rows, sight.normal[:, None]], axis=1)
-        errors = np.concatenate([errors, gap[:, None]], axis=1)
-        weights = np.concatenate([weights, pull[:, None]], axis=1)
+    rows, errors, noise = residual_rows(problem, sight, world)
+    size = errors / noise
+    weights = robust_weights(size, sight.weight) / noise**2
     blocks: list[tuple[slice, np.ndarray]] = []
     if free[t]:
         blocks.append((_six(slot[t]), np.concatenate([_cross_rows(rows, after), rows], axis=2)))
@@ -226,9 +225,27 @@ def _add_sight(
         shape.right[index] += (weights * along * errors).sum(axis=1)
 
 
-def _image_rows(problem: Problem, t: int, world: np.ndarray, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def residual_rows(problem: Problem, sight: Sight, world: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """What is missing between world points (N, 3) and their matches.
+
+    Returns derivatives (N, R, 3) by the points, residuals (N, R) and their noise (R,): image x, y and distance to the
+    target's surface, or for points of an outline only the distance across it.
+    """
+    rows, errors = image_rows(problem.cameras, sight.target, world, sight.xy)
+    if sight.facing is not None:
+        across = np.einsum("ni,nij->nj", sight.facing, rows)[:, None]
+        return across, (sight.facing * errors).sum(axis=1, keepdims=True), np.array([2.0 * problem.pixel_sigma])
+    if problem.surface_sigma <= 0:
+        return rows, errors, np.full(2, problem.pixel_sigma)
+    gap = np.einsum("ni,ni->n", sight.normal, sight.surface - world)
+    rows = np.concatenate([rows, sight.normal[:, None]], axis=1)
+    noise = np.array([problem.pixel_sigma, problem.pixel_sigma, problem.surface_sigma])
+    return rows, np.concatenate([errors, gap[:, None]], axis=1), noise
+
+
+def image_rows(cameras: Cameras, t: int, world: np.ndarray, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Derivative (N, 2, 3) of image places by world points, and what is missing (N, 2) to the matched places."""
-    pose, k = problem.cameras.world_to_camera[t], problem.cameras.K[t]
+    pose, k = cameras.world_to_camera[t], cameras.K[t]
     x = world @ pose[:3, :3].T + pose[:3, 3]
     z = np.maximum(x[:, 2], 1e-6)
     local = np.zeros((len(x), 2, 3))
@@ -238,9 +255,21 @@ def _image_rows(problem: Problem, t: int, world: np.ndarray, xy: np.ndarray) -> 
     return local @ pose[:3, :3], xy - seen
 
 
-def _weights(error: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """Geman-McClure weights, scaled so that one sight counts as at most 40 independent points."""
-    return weight / (1.0 + (error / 2.0) ** 2) ** 2 * min(1.0, 40.0 / max(len(error), 1))
+def robust_weights(errors: np.ndarray, weight: np.ndarray) -> np.ndarray:  # (N, R), (N,) -> (N, R)
+    """Geman-McClure weights of residuals in units of their noise; image x and y share one, the surface has its own.
+
+    Scaled so that one sight counts as at most 40 independent points.
+    """
+    image = np.linalg.norm(errors[:, :2], axis=1)
+    kernel = np.tile(_kernel(image)[:, None], (1, errors.shape[1]))
+    if errors.shape[1] == 3:
+        kernel[:, 2] = _kernel(np.abs(errors[:, 2]))
+    return kernel * weight[:, None] * min(1.0, 40.0 / max(len(errors), 1))
+
+
+def _kernel(error: np.ndarray) -> np.ndarray:
+    """Geman-McClure weight, a quarter at twice the noise."""
+    return 1.0 / (1.0 + (error / 2.0) ** 2) ** 2
 
 
 def _cross_rows(rows: np.ndarray, points: np.ndarray) -> np.ndarray:
@@ -276,6 +305,28 @@ def _add_smoothness(
             right[_six(slot[f])] += c * weights * error
             for g, d in terms:
                 normal[_six(slot[f]), _six(slot[g])] += np.diag(c * d * weights)
+
+
+def _add_stillness(
+    normal: np.ndarray,
+    right: np.ndarray,
+    path: Path,
+    frames: tuple[np.ndarray, np.ndarray],  # free, known
+    slot: np.ndarray,
+    weight: float,
+) -> None:
+    """Turning between neighbouring frames costs `weight` per rad^2: a guessed shape must not explain all by turning."""
+    free, known = frames
+    for t in range(len(path.position) - 1):
+        if not (known[t] and known[t + 1]):
+            continue
+        turn = log_rotation(path.rotation[t + 1] @ path.rotation[t].T)
+        terms = [(f, c) for f, c in ((t, -1.0), (t + 1, 1.0)) if free[f]]
+        for f, c in terms:
+            place = slice(6 * slot[f], 6 * slot[f] + 3)
+            right[place] -= c * weight * turn
+            for g, d in terms:
+                normal[place, 6 * slot[g] : 6 * slot[g] + 3] += c * d * weight * np.eye(3)
 
 
 def log_rotation(rotation: np.ndarray) -> np.ndarray:  # (3, 3) -> (3,)

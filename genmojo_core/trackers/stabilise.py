@@ -13,6 +13,7 @@ import cv2
 import numpy as np
 
 WORK_SIDE = 112  # pixels of the longer side of a work grid: DIS needs a few of its 8 px patches across an object
+_FINEST = 0.8  # pixels between places at least: finer grids only cost time
 _MARGIN = 0.12  # of the object's size, around its box
 _MASK_FULL = 0.9  # warped mask value from which a pixel counts as the object
 
@@ -97,7 +98,7 @@ def grid_of(layer: Layer, t: int) -> Grid | None:
     x0, x1, y0, y1 = cols.min(), cols.max() + 1, rows.min(), rows.max() + 1
     pad = max(_MARGIN * max(x1 - x0, y1 - y0), 4.0)
     width, height = x1 - x0 + 2 * pad, y1 - y0 + 2 * pad
-    step = max(width, height) / WORK_SIDE
+    step = max(max(width, height) / WORK_SIDE, _FINEST)
     w, h = max(int(np.ceil(width / step)), 24), max(int(np.ceil(height / step)), 24)
     xs = (x0 - pad) + (np.arange(w) + 0.5) * step
     ys = (y0 - pad) + (np.arange(h) + 0.5) * step
@@ -106,10 +107,11 @@ def grid_of(layer: Layer, t: int) -> Grid | None:
     return Grid(xy, float(step), inside, sample(layer.shade[t], xy))
 
 
-def sample(image: np.ndarray, xy: np.ndarray) -> np.ndarray:
-    """Bilinear values of an image (H, W) or (H, W, C) at raster places (h, w, 2) or (N, 2); outside the image 0."""
-    places = np.ascontiguousarray(xy, dtype=np.float32) - 0.5
-    out = cv2.remap(image, places if places.ndim == 3 else places[:, None], None, cv2.INTER_LINEAR)
+def sample(image: np.ndarray, xy: np.ndarray, border: int = cv2.BORDER_CONSTANT) -> np.ndarray:
+    """Bilinear values of an image (H, W) or (H, W, C) at raster places (h, w, 2) or (N, 2); outside 0 by default."""
+    places = np.ascontiguousarray(xy, dtype=np.float32) - np.float32(0.5)
+    places = places if places.ndim == 3 else places[:, None]
+    out = cv2.remap(image, places, None, cv2.INTER_LINEAR, borderMode=border)
     return out.reshape(*xy.shape[:-1], *image.shape[2:])
 
 

@@ -1,0 +1,261 @@
+"""The search for one object's motion: outward from a reference frame, then jointly over all frames.
+
+Outward, each next pose is predicted, tried in several versions, matched by stabilised flow to several earlier frames
+and solved; then all poses are solved together from links between many pairs of frames, which stops drift, and what is
+left is explained by a smooth bend if that has evidence.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from genmojo_core.optimise.bend import Bend, carried, fit_bend, no_bend
+from genmojo_core.optimise.poses import Path, Problem, Sight, camera_centre, project, rays, solve, still_path
+from genmojo_core.optimise.surfaces import ObjectSurfaces
+from genmojo_core.trackers.contours import meet, outline_of, spread
+from genmojo_core.trackers.search import best_shifts
+from genmojo_core.trackers.stabilise import Link, Matcher
+
+_POINTS = 250  # places of a frame that take part in a solve
+_EDGE, _EDGE_REACH = 60, 2  # outline points of a frame; frames between two outlines that are compared
+_BACK = (1, 2, 4)  # frame distances of the outward pass
+_LINKS = (1, 2, 4, 8)  # frame distances of the joint solve
+_TURN_WEIGHT = 10.0 / np.deg2rad(3.0) ** 2  # against explaining a guessed shape's change by turning
+_BEND_GAIN = 0.85  # a bend must bring the median residual below this share of the rigid one's
+
+
+@dataclass(frozen=True)
+class Found:
+    """What the search found.
+
+    Args:
+        surfaces: with depth improved by the motion where it was a guess.
+        path: rigid poses. bend: what is left.
+        confidence: (T,) 0..1. residual_px: median distance of matches to the rigid motion.
+    """
+
+    surfaces: ObjectSurfaces
+    path: Path
+    bend: Bend
+    confidence: np.ndarray
+    residual_px: float
+
+
+class ObjectSolver:
+    """The work for one object; `run` does all of it."""
+
+    def __init__(self, surfaces: ObjectSurfaces, ref: int, matcher: Matcher) -> None:
+        self.surfaces, self.matcher, self.ref = surfaces, matcher, ref
+        self.frames = len(surfaces.surfaces)
+        self.seen = np.array([s is not None for s in surfaces.surfaces])
+        if not self.seen[ref] and self.seen.any():
+            self.ref = int(np.argmax(self.seen))
+        self.outlines = [outline_of(surfaces.layer, t) for t in range(self.frames)]
+        self._choose_points()
+
+    def run(self) -> Found:
+        """Outward pass, then joint solves with fresh links, then the bend."""
+        if not self.seen.any():
+            path = still_path(self.frames, np.zeros(3), self.ref)
+            return Found(self.surfaces, path, no_bend(self.frames, np.zeros(3), 1.0), np.zeros(self.frames), 0.0)
+        path = self._outward()
+        sights: list[Sight] = []
+        every = np.ones(self.frames, bool)
+        for _ in range(2):
+            sights = self._all_sights(path)
+            path, self.depth = solve(path, self._problem(sights), every, every, rounds=8)
+            self._keep_shape()
+        rigid = no_bend(self.frames, path.centre, self.surfaces.size)
+        bend = fit_bend(path, self._problem(sights))
+        residual = self._residual(path, rigid, sights)
+        if self._residual(path, bend, sights) > _BEND_GAIN * residual:
+            bend = rigid
+        return Found(self.surfaces, path, bend, self._confidence(sights), residual)
+
+    # --- preparation
+
+    def _choose_points(self) -> None:
+        """At most about _POINTS grid places and _EDGE outline points per frame; rays and depths in one list."""
+        self.cells: list[np.ndarray] = []
+        self.edges: list[np.ndarray] = []
+        self.start = np.zeros(self.frames + 1, np.int64)
+        origin, ray, depth = [np.zeros((0, 3))], [np.zeros((0, 3))], [np.zeros(0)]
+        cameras = self.surfaces.cameras
+        for t, surface in enumerate(self.surfaces.surfaces):
+            cells, edge = np.zeros((0, 2), np.int64), np.zeros(0, np.int64)
+            if surface is not None:
+                cells = np.argwhere(surface.grid.inside)
+                cells = cells[:: max(len(cells) // _POINTS, 1)][: 2 * _POINTS]
+                xy = surface.grid.xy[cells[:, 0], cells[:, 1]].astype(np.float64)
+                outline = self.outlines[t]
+                if outline is not None:
+                    edge = spread(outline, _EDGE)
+                    xy = np.concatenate([xy, outline.xy[edge]])
+                origin.append(np.tile(camera_centre(cameras, t), (len(xy), 1)))
+                ray.append(rays(cameras, t, xy))
+                depth.append(surface.patch.lookup(surface.patch.depth, xy).astype(np.float64))
+            self.cells.append(cells)
+            self.edges.append(edge)
+            self.start[t + 1] = self.start[t] + len(cells) + len(edge)
+        self.origin, self.ray, self.depth = np.concatenate(origin), np.concatenate(ray), np.concatenate(depth)
+
+    def _problem(self, sights: list[Sight]) -> Problem:
+        """The solve with these sights."""
+        size, measured = self.surfaces.size, self.surfaces.measured
+        return Problem(self.surfaces.cameras, self.origin, self.ray, self.depth, size, tuple(sights),
+                       surface_sigma=0.01 * size if measured else 0.0,
+                       depth_sigma=0.0 if measured else 0.15 * size,
+                       turn_weight=0.0 if measured else _TURN_WEIGHT)  # fmt: skip
+
+    def _points(self, index: np.ndarray) -> np.ndarray:  # (N,) -> (N, 3) world
+        """Source points in their own frame."""
+        return self.origin[index] + self.depth[index, None] * self.ray[index]
+
+    def _keep_shape(self) -> None:
+        """Take the solved depths over into the surfaces, smoothly."""
+        if self.surfaces.measured:
+            return
+        for t, surface in enumerate(self.surfaces.surfaces):
+            if surface is not None:
+                part = slice(self.start[t], self.start[t] + len(self.cells[t]))
+                xy = surface.grid.xy[self.cells[t][:, 0], self.cells[t][:, 1]]
+                gain = self.depth[part] - surface.patch.lookup(surface.patch.depth, xy)
+                self.surfaces = self.surfaces.corrected(t, self.cells[t], gain)
+
+    # --- links
+
+    def _link(self, path: Path, s: int, t: int) -> Link | None:
+        """Match frame s to frame t as the path predicts."""
+        surface = self.surfaces.surfaces[s]
+        if surface is None or not self.seen[t]:
+            return None
+        predicted = project(self.surfaces.cameras, t, path.between(s, t, surface.points)).astype(np.float32)
+        return self.matcher.link(self.surfaces.layer, surface.grid, t, predicted)
+
+    def _sight(self, path: Path, s: int, t: int) -> Sight | None:
+        """Matches of frame s in frame t at the chosen points."""
+        link, target = self._link(path, s, t), self.surfaces.surfaces[t]
+        if link is None or target is None:
+            return None
+        rows, cols = self.cells[s].T
+        weight = link.weight[rows, cols].astype(np.float64)
+        good = weight > 0.05
+        if good.sum() < 6:
+            return None
+        xy = link.xy[rows, cols][good].astype(np.float64)
+        normal = target.patch.lookup(target.normal, xy).astype(np.float64)
+        length = np.linalg.norm(normal, axis=1, keepdims=True)
+        normal = np.where(length > 0.9, normal / np.maximum(length, 1e-9), 0.0)
+        return Sight(s, t, self.start[s] + np.nonzero(good)[0], xy, weight[good], self.surfaces.world(t, xy), normal)
+
+    def _outline_sight(self, path: Path, s: int, t: int) -> Sight | None:
+        """The own outline of frame s against that of frame t."""
+        source, target = self.outlines[s], self.outlines[t]
+        if source is None or target is None or abs(s - t) > _EDGE_REACH or not len(self.edges[s]):
+            return None
+        index = self.start[s] + len(self.cells[s]) + np.arange(len(self.edges[s]))
+        seen = project(self.surfaces.cameras, t, path.between(s, t, self._points(index)))
+        reach = 0.12 * float(np.sqrt(self.surfaces.layer.mask[s].sum())) + 2.0
+        place, facing, good = meet(target, seen, source.normal[self.edges[s]], reach)
+        if good.sum() < 6:
+            return None
+        none = np.zeros((int(good.sum()), 3))
+        return Sight(s, t, index[good], place[good], np.ones(len(none)), none, none, facing[good])
+
+    def _sights(self, path: Path, pairs: list[tuple[int, int]]) -> list[Sight]:
+        """Texture and outline sights of pairs (source, target)."""
+        found = [make(path, s, t) for s, t in pairs for make in (self._sight, self._outline_sight)]
+        return [sight for sight in found if sight is not None]
+
+    def _all_sights(self, path: Path) -> list[Sight]:
+        """Sights between all frames at the distances of _LINKS, both ways, and from the reference frame."""
+        pairs = {(s, t) for s in range(self.frames) for d in _LINKS for t in (s - d, s + d) if 0 <= t < self.frames}
+        pairs |= {(self.ref, t) for t in range(self.frames)} - {(self.ref, self.ref)}
+        return self._sights(path, sorted(pairs))
+
+    # --- outward pass
+
+    def _outward(self) -> Path:
+        """Poses one after the other, from the reference frame to both ends."""
+        surface = self.surfaces.surfaces[self.ref]
+        centre = np.zeros(3) if surface is None else np.median(surface.points[surface.grid.inside], axis=0)
+        path = still_path(self.frames, centre, self.ref)
+        for direction in (1, -1):
+            done = [self.ref]
+            t = self.ref + direction
+            while 0 <= t < self.frames:
+                path = self._next(path, t, direction, done)
+                if self.seen[t]:
+                    done.append(t)
+                t += direction
+        return path
+
+    def _next(self, path: Path, t: int, direction: int, done: list[int]) -> Path:
+        """The path with the pose of frame t found from the frames done before it."""
+        rotation, position = _continued(path, t, direction)
+        path = path.moved(t, rotation, position)
+        if not self.seen[t]:
+            return path
+        sources = [s for s in done if abs(s - t) in _BACK] or done[-1:]
+        path = self._best_start(path, sources[-1], t)
+        free, known = np.zeros(self.frames, bool), np.zeros(self.frames, bool)
+        free[t] = True
+        known[min(self.ref, t) : max(self.ref, t) + 1] = True
+        for _ in range(2):
+            sights = self._sights(path, [(s, t) for s in sources])
+            path, _ = solve(path, self._problem(sights), free, known)
+        return path
+
+    def _best_start(self, path: Path, s: int, t: int) -> Path:
+        """The path as predicted, or shifted to one of the best overlaps, whichever matches frame t best."""
+        surface = self.surfaces.surfaces[s]
+        if surface is None:
+            return path
+        moved = path.between(s, t, surface.points)
+        predicted = project(self.surfaces.cameras, t, moved).astype(np.float32)
+        shifts = best_shifts(self.surfaces.layer, surface.grid, t, predicted)
+        pose, k = self.surfaces.cameras.world_to_camera[t], self.surfaces.cameras.K[t]
+        z = float(np.median((moved[surface.grid.inside] @ pose[:3, :3].T + pose[:3, 3])[:, 2]))
+        best, best_score = path, -1.0
+        for shift in [np.zeros(2), *shifts]:
+            move = np.array([shift[0] / k[0, 0] * z, shift[1] / k[1, 1] * z, 0.0]) @ pose[:3, :3]
+            tried = path.moved(t, path.rotation[t], path.position[t] + move)
+            link = self._link(tried, s, t)
+            if link is not None and link.score > best_score:
+                best, best_score = tried, link.score
+        return best
+
+    # --- judgement
+
+    def _confidence(self, sights: list[Sight]) -> np.ndarray:  # (T,)
+        """Matched weight of every frame, full at half the usual; 0 where the object is not seen."""
+        support = np.zeros(self.frames)
+        for sight in sights:
+            if sight.facing is None:
+                support[sight.target] += sight.weight.sum()
+        usual = max(float(np.median(support[self.seen])), 1e-9)
+        confidence = np.clip(2.0 * support / usual, 0.0, 1.0)
+        confidence[self.ref] = 1.0
+        return confidence
+
+    def _residual(self, path: Path, bend: Bend, sights: list[Sight]) -> float:
+        """Median distance in pixels of the matches to what path and bend predict."""
+        residuals = [np.zeros(0)]
+        for sight in sights:
+            if sight.facing is None:
+                world = carried(path, bend, sight.source, sight.target, self._points(sight.index))
+                seen = project(self.surfaces.cameras, sight.target, world)
+                residuals.append(np.linalg.norm(seen - sight.xy, axis=1))
+        every = np.concatenate(residuals)
+        return float(np.median(every)) if len(every) else 0.0
+
+
+def _continued(path: Path, t: int, direction: int) -> tuple[np.ndarray, np.ndarray]:
+    """Rotation and position of frame t if the last motion goes on."""
+    last, before = t - direction, t - 2 * direction
+    if not 0 <= before < len(path.position) or last == path.ref:
+        return path.rotation[last], path.position[last]
+    turn = path.rotation[last] @ path.rotation[before].T
+    return turn @ path.rotation[last], 2 * path.position[last] - path.position[before]
