@@ -21,6 +21,7 @@ from __future__ import annotations
 
 import numpy as np
 
+DILATION = 0.3  # px^2 added to every projected covariance, at the size the scene was optimised at
 SH_C0 = 0.28209479177387814  # value of the constant spherical harmonic: rgb = 0.5 + SH_C0 * dc
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -117,7 +118,7 @@ def _given_cameras(path: str, scene: BakedScene) -> Cameras:
     lens = np.tile(lens, (len(poses), 1, 1)) if lens.ndim == 2 else lens
     if len(poses) != len(scene) and len(poses) > scene.frame_index.max():
         poses, lens = poses[scene.frame_index], lens[scene.frame_index]
-    cameras = Cameras(lens, poses, scene.cameras.size, scene.cameras.near, scene.cameras.far)
+    cameras = replace(scene.cameras, K=lens, world_to_camera=poses)
     check_cameras(cameras, len(scene), path)
     return cameras
 

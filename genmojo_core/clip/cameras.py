@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from genmojo_core.conventions import DILATION
 from genmojo_core.errors import GenmojoError
 
 
@@ -19,6 +20,8 @@ class View:
         cx, cy: principal point in raster pixels; it may lie outside the image (a crop).
         width, height: image size in pixels.
         near, far: depths in scene units outside which nothing is drawn.
+        dilation: px^2 of this image that a rasteriser adds to every projected covariance; it scales with the area
+            when the image is resized.
     """
 
     world_to_camera: np.ndarray
@@ -30,6 +33,7 @@ class View:
     height: int
     near: float = 0.01
     far: float = 1e4
+    dilation: float = DILATION
 
     @property
     def K(self) -> np.ndarray:  # noqa: N802 - the field's name
@@ -40,17 +44,17 @@ class View:
         """The same camera for an image of another size (x and y scaled on their own)."""
         sx, sy = width / self.width, height / self.height
         return View(self.world_to_camera, self.fx * sx, self.fy * sy, self.cx * sx, self.cy * sy, width, height,
-                    self.near, self.far)  # fmt: skip
+                    self.near, self.far, self.dilation * sx * sy)  # fmt: skip
 
     def cropped(self, left: float, top: float, width: int, height: int) -> View:
         """The same camera looking at a window of its image; left and top in pixels, may be negative."""
         return View(self.world_to_camera, self.fx, self.fy, self.cx - left, self.cy - top, width, height,
-                    self.near, self.far)  # fmt: skip
+                    self.near, self.far, self.dilation)  # fmt: skip
 
     def with_pose(self, world_to_camera: np.ndarray) -> View:
         """The same lens at another place."""
         return View(np.asarray(world_to_camera, dtype=np.float64), self.fx, self.fy, self.cx, self.cy, self.width,
-                    self.height, self.near, self.far)  # fmt: skip
+                    self.height, self.near, self.far, self.dilation)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -62,6 +66,7 @@ class Cameras:
         world_to_camera: (T, 4, 4) float64, OpenCV axes.
         size: (width, height) in pixels that K refers to.
         near, far: scene units.
+        dilation: as in `View`, px^2 of `size`.
     """
 
     K: np.ndarray
@@ -69,6 +74,7 @@ class Cameras:
     size: tuple[int, int]
     near: float = 0.01
     far: float = 1e4
+    dilation: float = DILATION
 
     def __len__(self) -> int:
         return len(self.world_to_camera)
@@ -77,16 +83,18 @@ class Cameras:
         """The camera of frame t (0..T-1)."""
         k = self.K[t]
         return View(self.world_to_camera[t], float(k[0, 0]), float(k[1, 1]), float(k[0, 2]), float(k[1, 2]),
-                    self.size[0], self.size[1], self.near, self.far)  # fmt: skip
+                    self.size[0], self.size[1], self.near, self.far, self.dilation)  # fmt: skip
 
     def resized(self, width: int, height: int) -> Cameras:
         """The same cameras for images of another size."""
-        scale = np.diag([width / self.size[0], height / self.size[1], 1.0])
-        return Cameras(scale @ self.K, self.world_to_camera, (width, height), self.near, self.far)
+        sx, sy = width / self.size[0], height / self.size[1]
+        return Cameras(np.diag([sx, sy, 1.0]) @ self.K, self.world_to_camera, (width, height), self.near, self.far,
+                       self.dilation * sx * sy)  # fmt: skip
 
     def selected(self, indices: np.ndarray) -> Cameras:
         """Cameras of some of the frames."""
-        return Cameras(self.K[indices], self.world_to_camera[indices], self.size, self.near, self.far)
+        return Cameras(self.K[indices], self.world_to_camera[indices], self.size, self.near, self.far,
+                       self.dilation)  # fmt: skip
 
 
 def check_cameras(cameras: Cameras, frames: int, where: str) -> None:

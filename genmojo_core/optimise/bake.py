@@ -52,7 +52,7 @@ def bake(scene: Scene4D, clip: Clip, provenance: Provenance) -> BakedScene:
     if scene.gain is not None:
         d_dc = _with_gain(columns["dc"], d_dc, torch.stack([scene.gain(t) for t in range(frames)]).numpy())
     keep_color = scene.gain is not None or any(m.field is not None and m.field.shape.appearance for m in scene.objects)
-    cameras = clip.cameras.value.resized(*clip.source_size)
+    cameras = scene.cameras.resized(*clip.source_size)
     return BakedScene(
         clip.frame_index, clip.seconds, clip.source_names, tuple(objects), columns["xyz"], columns["rot"],
         columns["scale"], columns["opacity"], columns["dc"], _uids(columns["uid"], objects), columns["d_xyz"],

@@ -56,9 +56,7 @@ def save(
     return target
 
 
-def load(
-    folder: Path, scene: Scene4D, optimiser: torch.optim.Optimizer
-) -> tuple[dict[str, Any], dict[str, Tensor]]:
+def load(folder: Path, scene: Scene4D, optimiser: torch.optim.Optimizer) -> tuple[dict[str, Any], dict[str, Tensor]]:
     """Put a checkpoint's tensors into a freshly lifted scene and its optimiser; returns the saved `meta` and `extra`.
 
     Raises:

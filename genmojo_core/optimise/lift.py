@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import torch
@@ -10,6 +10,7 @@ from torch import Tensor
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.config import RunConfig
+from genmojo_core.conventions import DILATION
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.errors import GenmojoError
 from genmojo_core.optimise.motion import ObjectMotion
@@ -73,7 +74,8 @@ def lift(clip: Clip, plan: EffectPlan, config: RunConfig, motions: list[ObjectMo
         cloud = background_points(clip, config.background_gaussians)
         background = Gaussians.from_points(_tensor(cloud.xyz), _tensor(cloud.rgb), _tensor(cloud.sigma), 0.95)
     labels = len(objects) if plan.on("instance_labels") else 1
-    scene = Scene4D(objects, background, gain, clip.cameras.value, Layout(labels, plan.on("flow")))
+    cameras = replace(clip.cameras.value, dilation=DILATION)  # at the optimised size, whatever size they came in
+    scene = Scene4D(objects, background, gain, cameras, Layout(labels, plan.on("flow")))
     return Lifted(scene, rows, frames_of, tuple(warnings))
 
 

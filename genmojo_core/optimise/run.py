@@ -19,7 +19,7 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.config import RunConfig
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.errors import GenmojoError
-from genmojo_core.events import Checkpointed, Event, Failed, Finished, Preview, StageStarted, Step, Warned
+from genmojo_core.events import Checkpointed, Event, Failed, Finished, Preview, StageStarted, Warned
 from genmojo_core.optimise import checkpoint, density
 from genmojo_core.optimise.bake import Provenance, bake
 from genmojo_core.optimise.guard import Guard
@@ -192,9 +192,7 @@ class Run:
         self.guard.snapshot()
 
     def _new_statistics(self) -> None:
-        self.statistics = [
-            (o.gaussians, density.GradientStatistics(len(o.gaussians))) for o in self.scene.objects
-        ]
+        self.statistics = [(o.gaussians, density.GradientStatistics(len(o.gaussians))) for o in self.scene.objects]
 
     def _working_state(self) -> dict[str, torch.Tensor]:
         """What the loop carries from step to step besides the scene and the optimiser."""

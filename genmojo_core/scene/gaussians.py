@@ -40,7 +40,7 @@ class Gaussians(nn.Module):
 
     @staticmethod
     def from_points(points: Tensor, rgb: Tensor, sigma: Tensor, opacity: float = 0.9) -> Gaussians:
-        """Isotropic Gaussians: points (N, 3), rgb (N, 3) in 0..1, sigma (N,) standard deviation in the points' units."""
+        """Isotropic Gaussians: points (N, 3), rgb (N, 3) in 0..1, sigma (N,) in the points' units."""
         quats = torch.zeros(len(points), 4)
         quats[:, 0] = 1.0
         log_scales = torch.log(sigma.clamp(min=1e-7))[:, None].repeat(1, 3)

@@ -76,8 +76,6 @@ class Placement(nn.Module):
         return rows, dolly
 
 
-
-
 def limited_dolly(k: np.ndarray, start: int) -> np.ndarray:  # (T,) -> (T,)
     """Depth factors followed outward from frame `start` in steps of at most DOLLY_STEP per frame.
 

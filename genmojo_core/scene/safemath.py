@@ -98,7 +98,7 @@ def rotation_vector_to_quaternion(vector: Tensor) -> Tensor:  # (..., 3) radians
 
 
 def project(points: Tensor, world_to_camera: Tensor, K: Tensor, near: float) -> tuple[Tensor, Tensor]:
-    """Raster pixels (..., 2) and depths (...) of world points (..., 3); depths are floored at `near` for the division."""
+    """Raster pixels (..., 2) and depths (...) of world points (..., 3); the division floors depths at `near`."""
     in_camera = points @ world_to_camera[:3, :3].T + world_to_camera[:3, 3]
     z = in_camera[..., 2]
     safe = torch.clamp(z, min=near)

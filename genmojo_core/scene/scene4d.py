@@ -1,4 +1,4 @@
-"""The trainable 4D scene: objects (canonical Gaussians, placement, deformation), background, light; compose(t) -> splats.
+"""The trainable 4D scene: objects (canonical Gaussians, placement, deformation), background, light.
 
 What the effect plan leaves out does not exist here: no field, no gain, no channel, no parameter.
 """
@@ -158,7 +158,9 @@ class Scene4D(nn.Module):
         for k, (model, state) in enumerate(zip(self.objects, now, strict=True)):
             rgb = state.rgb if gain is None else state.rgb * gain
             flow = self._flow(t, state, None if after is None else after[k]) if self.layout.flow else None
-            parts.append((state.means, state.quats, state.scales, model.gaussians.opacities(), self._features(rgb, k, flow)))
+            parts.append(
+                (state.means, state.quats, state.scales, model.gaussians.opacities(), self._features(rgb, k, flow))
+            )
         if self.background is not None:
             g = self.background
             rgb = 0.5 + SH_C0 * g.dc

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from genmojo_core.clip.cameras import Cameras, check_cameras
-from genmojo_core.conventions import normalise_quaternions
+from genmojo_core.conventions import DILATION, normalise_quaternions
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.safe import json_text, parse_json
 from genmojo_core.store.scene_file import BakedScene, SceneObject
 from genmojo_core.tracks.model import PointTracks
+
+MAX_DILATION = 1e6  # px^2; a scene optimised at 2 px for a 4k clip stays under it
 
 _HALF = {"/deformation/dense/rot_wxyz": "rot_t", "/deformation/dense/log_scale": "log_scale_t",
          "/deformation/dense/d_sh": "d_dc"}  # fmt: skip
@@ -55,6 +58,10 @@ def decode(arrays: Mapping[str, np.ndarray], attributes: Mapping[str, Any], wher
     frames = len(arrays["/time/seconds"])
     cameras = _decode_cameras(arrays, frames)
     check_cameras(cameras, frames, where)
+    dilation = float(attributes.get("dilation_px2", DILATION))
+    if not 0.0 <= dilation < MAX_DILATION:
+        raise GenmojoError("value", f"the attribute dilation_px2 is {dilation:g}", where)
+    cameras = replace(cameras, dilation=dilation)
     up = np.asarray(attributes.get("up", (0.0, -1.0, 0.0)), np.float64).reshape(-1)
     if up.shape != (3,) or abs(np.linalg.norm(up) - 1) > 1e-3:
         raise GenmojoError("schema", "the attribute up is no unit vector", where)

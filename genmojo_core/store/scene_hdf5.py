@@ -115,7 +115,7 @@ def _attributes(scene: BakedScene) -> dict[str, Any]:
         "generator": scene.generator or f"genmojo {__version__}", "created_utc": scene.created_utc,
         "run_uuid": scene.run_uuid, "up": np.asarray(scene.world_up, np.float64), "handedness": "right",
         "camera": "opencv_w2c", "units": "scene", "elevation_sign": "+up", "sort_key": "view_z",
-        "dilation_px2": 0.3, "alpha_min": 1 / 255, "alpha_max": 0.99, "aa_mode": "classic",
+        "dilation_px2": float(scene.cameras.dilation), "alpha_min": 1 / 255, "alpha_max": 0.99, "aa_mode": "classic",
         "pixel_aspect": float(scene.pixel_aspect),
     }  # fmt: skip
 

@@ -3,7 +3,7 @@
 The released code follows one nearest centre and drops queries without one near. Here a query's surface point is
 expressed in the local frame of every Gaussian that contributes to its pixel (weights alpha T, its own instance only),
 carried by each, and blended; no query is dropped. Every Gaussian turns about its own centre, so rotation carries
-offsets too.
+offsets too. A rendered outline is good to a pixel or two, so a query that falls just beside an object belongs to it.
 """
 
 from __future__ import annotations
@@ -17,12 +17,13 @@ from genmojo_core.clip.cameras import View
 from genmojo_core.conventions import quaternion_to_matrix
 from genmojo_core.errors import GenmojoError
 from genmojo_core.render.cpu.rasterize import rasterize
-from genmojo_core.render.rasterizer import ALPHA_MAX, ALPHA_MIN, DILATION, FRUSTUM_CLAMP, Splats
+from genmojo_core.render.rasterizer import ALPHA_MAX, ALPHA_MIN, FRUSTUM_CLAMP, Splats
 from genmojo_core.store.scene_file import BakedScene, Frame
 from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE, PointTracks
 
 CARRIERS = 16  # Gaussians that carry one query at most
 DEPTH_TOLERANCE = 0.10  # relative: farther behind the rendered surface is hidden
+RIM = 0.015  # of the short side: a query on the background this near an object is meant for the object
 TEST_SHORT_SIDE = 384  # pixels at most of the images in which visibility is tested
 _SEEN_ALPHA = 0.5  # coverage from which a pixel shows something
 
@@ -109,8 +110,11 @@ def _carriers(scene: BakedScene, t: np.ndarray, xy: np.ndarray) -> Carriers:
         means, conics, depth = _project_splats(frame, view)
         turns = quaternion_to_matrix(frame.quats.astype(np.float64))
         camera_to_world = np.linalg.inv(view.world_to_camera)
+        winners, alpha, _ = _labels(scene, frame, view)
+        on_object = ~np.array([o.is_background for o in scene.objects])[winners] & (alpha > _SEEN_ALPHA)
         for n in np.flatnonzero(t == i):
-            share = _contributions(xy[n], means, conics, depth, frame.opacities)
+            place = _onto_object(xy[n], on_object, view)
+            share = _contributions(place, means, conics, depth, frame.opacities)
             rows[n], weights[n], owner[n] = _choose(share, frame, xy[n], means, depth, count)
             z = float(weights[n] @ depth[rows[n]])
             ray = np.array([(xy[n, 0] - view.cx) / view.fx, (xy[n, 1] - view.cy) / view.fy, 1.0])
@@ -118,6 +122,23 @@ def _carriers(scene: BakedScene, t: np.ndarray, xy: np.ndarray) -> Carriers:
             away = point - frame.means[rows[n]]
             offsets[n] = np.einsum("cji,cj->ci", turns[rows[n]], away)
     return Carriers(rows, weights, offsets, owner)
+
+
+def _onto_object(pixel: np.ndarray, on_object: np.ndarray, view: View) -> np.ndarray:  # (2,) px -> (2,) px
+    """The centre of the nearest pixel of an object if one is within RIM and the query's own shows none; else itself."""
+    height, width = on_object.shape
+    scale = np.array([width / view.width, height / view.height])
+    column, row = np.clip(np.floor(pixel * scale), 0, [width - 1, height - 1]).astype(np.int64)
+    if on_object[row, column]:
+        return pixel
+    reach = RIM * min(width, height)
+    top, left = max(0, int(row - reach)), max(0, int(column - reach))
+    rows, columns = np.nonzero(on_object[top : int(row + reach) + 2, left : int(column + reach) + 2])
+    centres = np.stack([columns + left, rows + top], axis=-1) + 0.5
+    distance = np.linalg.norm(centres - pixel * scale, axis=1)
+    if not (distance <= reach).any():
+        return pixel
+    return centres[np.argmin(distance)] / scale
 
 
 def _project_splats(frame: Frame, view: View) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -134,7 +155,7 @@ def _project_splats(frame: Frame, view: View) -> tuple[np.ndarray, np.ndarray, n
     jacobian[:, 0, 2], jacobian[:, 1, 2] = -view.fx * slope[:, 0] / z, -view.fy * slope[:, 1] / z
     axes = quaternion_to_matrix(frame.quats.astype(np.float64)) * frame.scales[:, None, :]
     spread = jacobian @ rotation @ axes
-    covariance = spread @ spread.transpose(0, 2, 1) + DILATION * np.eye(2)
+    covariance = spread @ spread.transpose(0, 2, 1) + view.dilation * np.eye(2)
     inverse = np.linalg.inv(covariance)
     conics = np.stack([inverse[:, 0, 0], inverse[:, 0, 1], inverse[:, 1, 1]], axis=-1)
     pixels = camera[:, :2] / z[:, None] * [view.fx, view.fy] + [view.cx, view.cy]
@@ -190,15 +211,20 @@ def _states(
 ) -> np.ndarray:  # (N,) uint8
     """VISIBLE, OCCLUDED or OUT_OF_VIEW of points at `pixels` (N, 2) and `depth` (N,) in frame i."""
     view = scene.cameras.view(i)
+    winners, alpha, surface = _labels(scene, frame, view)
+    height, width = winners.shape
+    outside = (pixels < 0).any(axis=1) | (pixels >= [view.width, view.height]).any(axis=1) | (depth <= view.near)
+    place = np.floor(pixels * [width / view.width, height / view.height])
+    column, row = np.clip(place, 0, [width - 1, height - 1]).astype(np.int64).T
+    shown = (winners[row, column] == owner) & (alpha[row, column] > _SEEN_ALPHA)
+    near = depth <= surface[row, column] * (1 + DEPTH_TOLERANCE)
+    return np.where(outside, OUT_OF_VIEW, np.where(shown & near, VISIBLE, OCCLUDED)).astype(np.uint8)
+
+
+def _labels(scene: BakedScene, frame: Frame, view: View) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Object with the largest share, alpha and alpha-normalised depth (H, W), at TEST_SHORT_SIDE or the source's size."""
     scale = min(1.0, TEST_SHORT_SIDE / min(view.width, view.height))
     small = view.resized(max(1, round(view.width * scale)), max(1, round(view.height * scale)))
     labels = np.eye(len(scene.objects), dtype=np.float32)[frame.object_index]
     drawn = rasterize(Splats(frame.means, frame.quats, frame.scales, frame.opacities, labels), small)
-    outside = (pixels < 0).any(axis=1) | (pixels >= [view.width, view.height]).any(axis=1) | (depth <= view.near)
-    place = np.floor(pixels * [small.width / view.width, small.height / view.height])
-    column, row = np.clip(place, 0, [small.width - 1, small.height - 1]).astype(np.int64).T
-    alpha = drawn.alpha[row, column]
-    surface = drawn.depth[row, column] / np.maximum(alpha, 1e-4)
-    shown = (np.argmax(drawn.features[row, column], axis=1) == owner) & (alpha > _SEEN_ALPHA)
-    near = depth <= surface * (1 + DEPTH_TOLERANCE)
-    return np.where(outside, OUT_OF_VIEW, np.where(shown & near, VISIBLE, OCCLUDED)).astype(np.uint8)
+    return np.argmax(drawn.features, axis=-1), drawn.alpha, drawn.depth / np.maximum(drawn.alpha, 1e-4)

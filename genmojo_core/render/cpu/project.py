@@ -3,9 +3,9 @@
 Camera space t = W x + t0 with z = t_z; u = t_x / z, v = t_y / z; centre (f_x u + c_x, f_y v + c_y). The Jacobian of
 the projection is taken at u, v clamped to the image's field of view plus 15 % of its size on each side (METHOD.md
 section 5; the limits come from the principal point, so a crop clamps like the picture it was cut from). With
-P = J W R diag(s), a 2 x 3 matrix, the ellipse is Sigma = P P' + 0.3 I and its inverse is the conic (a, b, c):
-alpha = o exp(-(a dx^2 + 2 b dx dy + c dy^2) / 2). The determinant of Sigma is the sum of the squared 2 x 2 minors of P
-plus 0.3 tr(P P') + 0.09: no cancellation, so needles stay positive definite.
+P = J W R diag(s), a 2 x 3 matrix, the ellipse is Sigma = P P' + d I, d the view's dilation, and its inverse is the
+conic (a, b, c): alpha = o exp(-(a dx^2 + 2 b dx dy + c dy^2) / 2). The determinant of Sigma is the sum of the squared
+2 x 2 minors of P plus d tr(P P') + d^2: no cancellation, so needles stay positive definite.
 
 The box outside which alpha < 1/255 is exact: half-widths sqrt(2 ln(255 o) Sigma_xx), sqrt(2 ln(255 o) Sigma_yy).
 Everything per splat is float64; what the pixel loops read is float32.
@@ -20,7 +20,7 @@ import numpy as np
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.kernels.cache import inlined, kernel
-from genmojo_core.render.rasterizer import ALPHA_MIN, DILATION, FRUSTUM_CLAMP
+from genmojo_core.render.rasterizer import ALPHA_MIN, FRUSTUM_CLAMP
 
 LOG2_E = 1.4426950408889634
 SHORTEST_QUATERNION = 1e-12
@@ -37,6 +37,7 @@ class Lens(NamedTuple):
     depths: np.ndarray  # (2,) float64: near, far
     width: int
     height: int
+    dilation: float  # px^2
 
 
 class Cloud(NamedTuple):
@@ -74,6 +75,7 @@ def lens_of(view: View, pose: np.ndarray | None = None) -> Lens:
         np.array([view.near, view.far], dtype=np.float64),
         int(view.width),
         int(view.height),
+        float(view.dilation),
     )
 
 
@@ -131,8 +133,9 @@ def footprint(lens: Lens, cloud: Cloud, i: int, point: tuple) -> tuple:
     xy = px[0] * py[0] + px[1] * py[1] + px[2] * py[2]
     yy = py[0] * py[0] + py[1] * py[1] + py[2] * py[2]
     m0, m1, m2 = px[0] * py[1] - px[1] * py[0], px[0] * py[2] - px[2] * py[0], px[1] * py[2] - px[2] * py[1]
-    det = m0 * m0 + m1 * m1 + m2 * m2 + DILATION * (xx + yy) + DILATION * DILATION
-    sigma = (xx + DILATION, xy, yy + DILATION, det)
+    d = lens.dilation
+    det = m0 * m0 + m1 * m1 + m2 * m2 + d * (xx + yy) + d * d
+    sigma = (xx + d, xy, yy + d, det)
     return (inverse, unit), (u0, v0, u, v), (vx, vy, vz), (px, py), sigma
 
 
