@@ -247,6 +247,13 @@ def test_password_free_sudo_is_used(checkout: Path, monkeypatch: pytest.MonkeyPa
     assert bootstrap.root_prefix() == ["sudo", "-n"]
 
 
+def test_venv_is_added_where_python_lacks_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Debian's python3 comes without ensurepip, so a bare machine needs one package more."""
+    monkeypatch.setattr(bootstrap, "has_module", lambda name: name != "ensurepip")
+    missing = bootstrap.missing_packages("A libegl1\nB xvfb\n", "A", {"libegl1"})
+    assert missing == [f"python3.{sys.version_info[1]}-venv"]
+
+
 def test_package_list_has_both_groups_and_no_doubles() -> None:
     rows = [
         line.split() for line in (ROOT / "packaging/debian-packages.txt").read_text().splitlines() if line[0] != "#"
