@@ -222,7 +222,7 @@ def _states(
 
 
 def _labels(scene: BakedScene, frame: Frame, view: View) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Object with the largest share, alpha and alpha-normalised depth (H, W), at TEST_SHORT_SIDE or the source's size."""
+    """Object with the largest share, alpha and alpha-normalised depth (H, W), at TEST_SHORT_SIDE at most."""
     scale = min(1.0, TEST_SHORT_SIDE / min(view.width, view.height))
     small = view.resized(max(1, round(view.width * scale)), max(1, round(view.height * scale)))
     labels = np.eye(len(scene.objects), dtype=np.float32)[frame.object_index]

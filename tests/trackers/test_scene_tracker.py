@@ -10,6 +10,7 @@ from scenes import small_scene
 
 from genmojo_core.clip.cameras import Cameras
 from genmojo_core.errors import GenmojoError
+from genmojo_core.measure.views import render_frame
 from genmojo_core.trackers.scene import project, track
 from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE
 
@@ -85,6 +86,17 @@ def test_background_moves_with_the_camera_only():
     assert found.object.tolist() == [0]
     np.testing.assert_allclose(found.xy[0, :, 0], expected, atol=0.01)
     np.testing.assert_allclose(found.xyz[0], found.xyz[0, :1].repeat(4, 0), atol=1e-5)
+
+
+def test_a_query_just_beside_an_object_is_its_own():
+    """Outlines are good to a pixel or two: 1 px outside the disc still follows the disc, 12 px outside the wall."""
+    scene = small_scene(frames=4, size=(192, 144), per_object=900)
+    view = scene.cameras.view(0)
+    disc = render_frame(scene, 0, view).instance() == 1
+    edge = np.nonzero(disc[72])[0].min()
+    found = track(scene, np.zeros(2, int), np.array([[edge - 0.5, 72.5], [edge - 12.0, 72.5]]))
+    assert found.object.tolist() == [1, 0]
+    np.testing.assert_allclose(found.xy[0, :, 0] - (edge - 0.5), 1.2 * 192 * 0.1 / 4 * np.arange(4), atol=0.5)
 
 
 def test_no_query_is_dropped():
