@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-_WANTED = 250  # points alive in a frame; new ones are sought when under 60 % of the start's are left
+_WANTED = 200  # points alive in a frame; new ones are sought when under 60 % of the start's are left
 _WINDOW = (15, 15)
 _NOISE = 3.0  # grey levels that are no texture
 _STRAY = 2.0  # pixels: how far the look in a point's first frame may pull it from where it was followed to

@@ -59,16 +59,16 @@ class _Linear:
     by_focal: np.ndarray  # (M, 2)
 
 
-def adjust(bundle: Bundle, rounds: int = 25) -> Bundle:
-    """The bundle at (nearly) least cost; the cost never rises."""
-    damping, cost = 1e-3, _cost(bundle)
+def adjust(bundle: Bundle, rounds: int = 25, enough: float = 1e-4) -> Bundle:
+    """The bundle at (nearly) least cost, which never rises; a round that gains a share under `enough` is the last."""
+    damping, now = 1e-3, cost(bundle)
     for _ in range(rounds):
         step = _step(bundle, damping)
         changed = _moved(bundle, *step)
-        new_cost = _cost(changed)
-        if new_cost < cost:
-            done = cost - new_cost < 1e-5 * cost
-            bundle, cost, damping = changed, new_cost, max(damping / 5, 1e-7)
+        changed_cost = cost(changed)
+        if changed_cost < now:
+            done = now - changed_cost < enough * now
+            bundle, now, damping = changed, changed_cost, max(damping / 5, 1e-7)
             if done:
                 break
         else:
@@ -95,7 +95,7 @@ def world_points(bundle: Bundle, most_error: float) -> np.ndarray:  # (N, 3)
     return np.einsum("nij,nj->ni", np.linalg.inv(bundle.poses)[bundle.start], homogeneous)[good, :3]
 
 
-def _cost(bundle: Bundle) -> float:
+def cost(bundle: Bundle) -> float:
     """Cauchy cost of the observations plus the priors."""
     squared = (_linearise(bundle).residual ** 2).sum(axis=1)
     prior = (((bundle.log_depth - bundle.believed) / bundle.doubt) ** 2).sum()

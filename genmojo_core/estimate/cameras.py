@@ -15,7 +15,7 @@ import numpy as np
 from genmojo_core.clip.cameras import Cameras
 from genmojo_core.clip.clip import Clip
 from genmojo_core.estimate.background_points import PointPaths, drift, follow_background
-from genmojo_core.estimate.bundle import Bundle, adjust, errors, world_points
+from genmojo_core.estimate.bundle import Bundle, adjust, cost, errors, world_points
 
 FOVY = 49.1  # degrees; METHOD.md section 2, used where nothing better is known
 _STILL_SHARE = 0.004  # of the short side: a background that goes less far over the whole clip means a still camera
@@ -87,22 +87,34 @@ def estimate_cameras(
 def solve_motion(paths: PointPaths, intrinsics: np.ndarray, believed: Believed) -> tuple[Bundle, str]:
     """The better of turning on the spot and moving, as an adjusted bundle, and its name.
 
-    The focal length is freed last, and kept only where that makes a moving camera explain the points clearly better:
-    parallax shows it, small turns do not.
+    Seen from afar, a body turning left and its hollow mould turning right look alike, so without depth the mirrored
+    answer is tried as well. The focal length is freed last, and kept only where that makes a moving camera explain
+    the points clearly better: parallax shows it, small turns do not.
     """
-    turning = adjust(replace(_bundle(paths, intrinsics, believed), moves=False), 8)
+    turning = adjust(replace(_bundle(paths, intrinsics, believed), moves=False), 8, 1e-3)
     moving = replace(turning, moves=True)
     if believed.valid.any():
-        moving = replace(moving, poses=_poses(moving))
-    for tolerance, rounds in ((6.0, 8), (2.0, 8), (1.0, 10)):
-        moving = adjust(replace(moving, tolerance=tolerance), rounds)
-    focused = adjust(replace(moving, focal_doubt=_FOCAL_DOUBT, tolerance=2.0), 8)
-    focused = adjust(replace(focused, tolerance=1.0), 15)
-    if _usual_error(focused) < _FOCAL_GAIN * _usual_error(moving):
+        moving = _settle(replace(moving, poses=_poses(moving, moving.doubt == _KNOWN)))
+    else:
+        moving = _settle(moving)
+        mirrored = replace(turning, moves=True, log_depth=2 * np.median(moving.log_depth) - moving.log_depth)
+        mirrored = _settle(replace(mirrored, poses=_poses(mirrored, np.ones(len(mirrored.start), bool))))
+        moving = min(moving, mirrored, key=cost)
+    focused = adjust(replace(moving, focal_doubt=_FOCAL_DOUBT, tolerance=2.0), 8, 3e-3)
+    focused = adjust(replace(focused, tolerance=1.0), 12, 3e-4)
+    believable = abs(focused.log_focal) < 3 * _FOCAL_DOUBT
+    if believable and _usual_error(focused) < _FOCAL_GAIN * _usual_error(moving):
         moving = focused
     if believed.valid.any() or _usual_error(moving) < _CLEARLY_BETTER * _usual_error(turning):
         return moving, "moving"
     return turning, "turning"
+
+
+def _settle(bundle: Bundle) -> Bundle:
+    """Adjusted with a wide tolerance first, which forgives a bad start."""
+    for tolerance, rounds, enough in ((6.0, 8, 1e-2), (2.0, 8, 3e-3), (1.0, 10, 1e-3)):
+        bundle = adjust(replace(bundle, tolerance=tolerance), rounds, enough)
+    return bundle
 
 
 def _usual_error(bundle: Bundle) -> float:
@@ -156,16 +168,16 @@ def _rotations(paths: PointPaths, intrinsics: np.ndarray) -> np.ndarray:  # (T, 
     return poses
 
 
-def _poses(bundle: Bundle) -> np.ndarray:  # (T, 4, 4)
-    """Each frame's pose from the believed depth of the points it shares with earlier frames (PnP, RANSAC)."""
+def _poses(bundle: Bundle, trusted: np.ndarray) -> np.ndarray:  # (N,) bool -> (T, 4, 4)
+    """Each frame's pose from the depth of trusted points it shares with earlier frames (PnP, RANSAC)."""
     poses = bundle.poses.copy()
     ray = np.column_stack([bundle.at_start, np.ones(len(bundle.start))]) @ np.linalg.inv(bundle.intrinsics).T
-    in_start = np.column_stack([ray * np.exp(bundle.believed)[:, None], np.ones(len(ray))])
+    in_start = np.column_stack([ray * np.exp(bundle.log_depth)[:, None], np.ones(len(ray))])
     cv2.setRNGSeed(0)
     for t in range(1, len(poses)):
         chosen = np.flatnonzero(bundle.frame == t)
         point = bundle.point[chosen]
-        known = bundle.doubt[point] == _KNOWN
+        known = trusted[point]
         world = np.einsum("nij,nj->ni", np.linalg.inv(poses[bundle.start[point]]), in_start[point])[known, :3]
         poses[t] = poses[t - 1]
         if known.sum() < _FEWEST_POINTS:
