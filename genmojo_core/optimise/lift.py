@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,6 +14,7 @@ from genmojo_core.config import RunConfig
 from genmojo_core.conventions import DILATION
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.errors import GenmojoError
+from genmojo_core.optimise.first_poses import Moves
 from genmojo_core.optimise.motion import ObjectMotion
 from genmojo_core.optimise.objective import TrackSupervision
 from genmojo_core.scene.appearance import FrameGain
@@ -42,7 +44,7 @@ class Lifted:
     warnings: tuple[str, ...]
 
 
-def lift(clip: Clip, plan: EffectPlan, config: RunConfig, motions: list[ObjectMotion]) -> Lifted:
+def lift(clip: Clip, plan: EffectPlan, config: RunConfig, motions: Sequence[Moves]) -> Lifted:
     """The scene before the first optimiser step: every object placed and coloured from pixels, background behind.
 
     Args:
@@ -90,12 +92,12 @@ def track_supervision(lifted: Lifted, motions: list[ObjectMotion]) -> list[Track
     return tracks
 
 
-def object_points(clip: Clip, k: int, motion: ObjectMotion, count: int) -> Points:
+def object_points(clip: Clip, k: int, motion: Moves, count: int) -> Points:
     """World points of object k as it stands in its canonical frame, parts hidden there added from other frames."""
     cameras, ref = clip.cameras.value, motion.ref_frame
     mask = clip.object_mask(k)
     usable = mask & clip.depth.valid
-    points = points_of_image(clip.frames[ref], clip.depth.value[ref], usable[ref], cameras.view(ref),
+    points = points_of_image(clip.frames[ref], _depth(clip, motion, ref), usable[ref], cameras.view(ref),
                              int(count * FIRST_SHARE))  # fmt: skip
     others = [t for t in np.unique(np.linspace(0, len(clip) - 1, 7).astype(int)) if t != ref]
     others.sort(key=lambda t: abs(t - ref))
@@ -103,15 +105,16 @@ def object_points(clip: Clip, k: int, motion: ObjectMotion, count: int) -> Point
         left = count - len(points)
         if motion.confidence[t] < 0.3 or left < MIN_POINTS:
             continue
-        there = Points(_moved(points.xyz, motion.pose[t]), points.rgb, points.sigma)
+        there = Points(_moved(_bent(motion, t, points.xyz), motion.pose[t]), points.rgb, points.sigma)
         holes = uncovered(there, cameras.view(t), usable[t])
         if holes.sum() < 4:
             continue
         share = max(MIN_POINTS, left // (len(others) - i))
-        found = points_of_image(clip.frames[t], clip.depth.value[t], holes, cameras.view(t), share)
-        back = np.linalg.inv(motion.pose[t])
+        found = points_of_image(clip.frames[t], _depth(clip, motion, t), holes, cameras.view(t), share)
+        back = _moved(found.xyz, np.linalg.inv(motion.pose[t]))
+        back = back if motion.bend is None else motion.bend.undone(t, back)
         size = np.cbrt(np.linalg.det(motion.pose[t][:3, :3]))
-        points = points.joined(Points(_moved(found.xyz, back), found.rgb, found.sigma / size))
+        points = points.joined(Points(back, found.rgb, found.sigma / size))
     return points
 
 
@@ -126,7 +129,7 @@ def frame_gains(clip: Clip) -> Tensor:
 
 
 def _object_model(
-    clip: Clip, k: int, motion: ObjectMotion, points: Points, plan: EffectPlan, config: RunConfig,
+    clip: Clip, k: int, motion: Moves, points: Points, plan: EffectPlan, config: RunConfig,
     generator: torch.Generator,
 ) -> ObjectModel:  # fmt: skip
     """One object's parameters: canonical coordinates centred and in units of the object's size."""
@@ -149,6 +152,7 @@ def _object_model(
                            config.field_width, plan.on("appearance_change"))  # fmt: skip
         reach = local.abs().amax(dim=0).clamp(min=0.1) * 1.5
         field = DeformationField(torch.stack([-reach, reach]), _anchors(local, bases), shape, generator)
+        _start_bending(field, motion, points.xyz, local, size)
     return ObjectModel(int(clip.object_ids[k]), clip.object_names[k], motion.ref_frame, gaussians, placement, field)
 
 
@@ -169,7 +173,7 @@ def _anchors(points: Tensor, count: int) -> Tensor:
     return points[chosen]
 
 
-def _padded(points: Points, clip: Clip, k: int, motion: ObjectMotion) -> Points:
+def _padded(points: Points, clip: Clip, k: int, motion: Moves) -> Points:
     """A tiny object (a pixel or two) gets MIN_POINTS jittered copies of its points, so that nothing divides by zero."""
     if not len(points):
         seen = np.flatnonzero((clip.object_mask(k) & clip.depth.valid).any(axis=(1, 2)))
@@ -184,6 +188,43 @@ def _padded(points: Points, clip: Clip, k: int, motion: ObjectMotion) -> Points:
     sigma = np.repeat(points.sigma, copies)
     return Points(np.repeat(points.xyz, copies, axis=0) + 0.3 * jitter * sigma[:, None],
                   np.repeat(points.rgb, copies, axis=0), sigma)  # fmt: skip
+
+
+def _depth(clip: Clip, motion: Moves, t: int) -> np.ndarray:  # (H, W)
+    """The clip's depth of frame t, with the object's own window as the motion found it where that is known."""
+    patch = None if motion.depth is None else motion.depth[t]
+    depth = clip.depth.value[t]
+    if patch is None:
+        return depth
+    depth = depth.copy()
+    height, width = depth.shape
+    top, left = max(patch.top, 0), max(patch.left, 0)
+    bottom, right = min(patch.top + patch.depth.shape[0], height), min(patch.left + patch.depth.shape[1], width)
+    depth[top:bottom, left:right] = patch.depth[
+        top - patch.top : bottom - patch.top, left - patch.left : right - patch.left
+    ]
+    return depth
+
+
+def _bent(motion: Moves, t: int, points: np.ndarray) -> np.ndarray:
+    """Canonical points with the initial bend of frame t."""
+    return points if motion.bend is None else motion.bend.at(t, points)
+
+
+def _start_bending(field: DeformationField, motion: Moves, points: np.ndarray, local: Tensor, size: float) -> None:
+    """Motion bases that reproduce the initial bend as well as their coefficients allow (least squares per frame).
+
+    Args:
+        points: (N, 3) canonical points in world units. local: the same in object units. size: world per object unit.
+    """
+    if motion.bend is None or not np.any(motion.bend.coefficients):
+        return
+    with torch.no_grad():
+        coefficients = field.coefficients(local).double()
+        pull = coefficients.T @ coefficients + 1e-3 * len(local) * torch.eye(coefficients.shape[1]).double()
+        for t in range(len(field.bases)):
+            moved = torch.from_numpy((motion.bend.at(t, points) - points) / size)
+            field.bases[t] = torch.linalg.solve(pull, coefficients.T @ moved).float()
 
 
 def _moved(points: np.ndarray, pose: np.ndarray) -> np.ndarray:

@@ -22,10 +22,11 @@ from genmojo_core.errors import GenmojoError
 from genmojo_core.events import Checkpointed, Event, Failed, Finished, Preview, StageStarted, Warned
 from genmojo_core.optimise import checkpoint, density
 from genmojo_core.optimise.bake import Provenance, bake
+from genmojo_core.optimise.first_poses import first_poses
 from genmojo_core.optimise.guard import Guard
-from genmojo_core.optimise.lift import lift, track_supervision
+from genmojo_core.optimise.lift import Lifted, lift, track_supervision
 from genmojo_core.optimise.motion import initial_motion
-from genmojo_core.optimise.objective import Objective, Outcome
+from genmojo_core.optimise.objective import Objective, Outcome, TrackSupervision
 from genmojo_core.optimise.progress import Clock, Progress
 from genmojo_core.optimise.regularise import Neighbours
 from genmojo_core.optimise.schedule import (
@@ -93,9 +94,19 @@ class Run:
 
     def _events(self) -> Iterator[Event]:
         torch.manual_seed(self.config.seed)
+        if self.resume and self.run_dir is None:
+            raise GenmojoError("argument", "there is no run folder to resume from", "--resume", "give --run-dir")
+        yield StageStarted(*self.clock.now(), "first scene", 0, "every object where its pixels are")
+        self._build(lift(self.clip, self.plan, self.config, first_poses(self.clip)), [])
+        yield Preview(*self.clock.now(), "first scene", 0, self.reference, self._reference_psnr())
         yield StageStarted(*self.clock.now(), "motion", 0, "following every object through the clip")
-        yield from self._prepare()
-        yield Preview(*self.clock.now(), "lift", self.progress.step, self.reference, self.first_psnr)
+        motions = initial_motion(self.clip)
+        lifted = lift(self.clip, self.plan, self.config, motions)
+        for message in lifted.warnings:
+            yield Warned(*self.clock.now(), "object_not_visible", message)
+        self._build(lifted, track_supervision(lifted, motions))
+        self._start()
+        yield Preview(*self.clock.now(), "motion", self.progress.step, self.reference, self._reference_psnr())
         try:
             for stage in self.progress.stages:
                 yield from self._stage(stage)
@@ -108,34 +119,34 @@ class Run:
         reason = "interrupted" if self.stopped else "budget" if self.progress.out_of_time(self.clock) else "done"
         yield Finished(*self.clock.now(), self.progress.step, reason, {"psnr_held_out": self.progress.psnr()})
 
-    def _prepare(self) -> Iterator[Event]:
-        """Initial motion, first scene, optimiser, and the checkpoint if there is one to resume."""
-        motions = initial_motion(self.clip)
-        lifted = lift(self.clip, self.plan, self.config, motions)
-        for message in lifted.warnings:
-            yield Warned(*self.clock.now(), "object_not_visible", message)
+    def _build(self, lifted: Lifted, tracks: list[TrackSupervision]) -> None:
+        """The scene and what it is compared with."""
         self.scene = lifted.scene
         self.reference = sorted(o.ref_frame for o in self.scene.objects)[len(self.scene.objects) // 2]
         self.targets = Targets(self.clip, lifted.rows, self.config.held_out_share, self.config.seed)
-        tracks = track_supervision(lifted, motions)
         self.objective = Objective(self.scene, self.targets, self.plan, self.config.weights,
                                    choose(self.config.device), tracks, self.config.neighbours)  # fmt: skip
-        self.optimiser = make_optimiser(self.scene, self.config)
         self.generator = torch.Generator().manual_seed(self.config.seed)
-        if self.resume:
-            if self.run_dir is None:
-                raise GenmojoError("argument", "there is no run folder to resume from", "--resume", "give --run-dir")
-            meta, extra = checkpoint.load(self.run_dir, self.scene, self.optimiser)
+
+    def _start(self) -> None:
+        """Optimiser and guard, and the checkpoint if there is one to resume."""
+        self.optimiser = make_optimiser(self.scene, self.config)
+        if self.resume and self.run_dir is not None:
+            meta, state = checkpoint.load(self.run_dir, self.scene, self.optimiser)
             self.progress.restore(meta)
             self.clock.add(meta["seconds"], meta["cpu_seconds"])
             self.generator.set_state(torch.tensor(meta["generator"], dtype=torch.uint8))
-        self._new_statistics()
-        if self.resume:
-            self._restore_working_state(extra)
-        with torch.no_grad():
-            first = self.objective.evaluate([self.reference], False, self.generator)
-        self.first_psnr = first.foreground[0][1] if first.foreground else 0.0
+            self._new_statistics()
+            self._restore_working_state(state)
+        else:
+            self._new_statistics()
         self.guard = Guard(self.scene, self.optimiser)
+
+    def _reference_psnr(self) -> float:
+        """Foreground PSNR of the reference frame in dB."""
+        with torch.no_grad():
+            outcome = self.objective.evaluate([self.reference], False, self.generator)
+        return outcome.foreground[0][1] if outcome.foreground else 0.0
 
     def _stage(self, stage: Stage) -> Iterator[Event]:
         """Steps of one stage, with density control, snapshots, previews and checkpoints in between."""

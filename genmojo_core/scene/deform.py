@@ -81,11 +81,17 @@ class DeformationField(nn.Module):
         hidden = torch.relu(self.trunk(self.planes(points, times)))
         out = self.head(hidden)
         k = self.shape.bases
-        closeness = -4.0 * (points.detach()[:, None] - self.anchors[None]).norm(dim=-1) / self.reach
-        coefficients = torch.softmax(closeness[None] + out[..., 7 : 7 + k], dim=-1)  # rows sum to 1
+        coefficients = torch.softmax(self._closeness(points)[None] + out[..., 7 : 7 + k], dim=-1)  # rows sum to 1
         d_means = torch.bmm(coefficients, self.bases[frames])
         d_dc = out[..., 7 + k :] if self.shape.appearance else None
         return Deformation(d_means, out[..., 0:3], out[..., 3:7], d_dc)
+
+    def coefficients(self, points: Tensor) -> Tensor:  # (N, 3) -> (N, bases)
+        """Start values of the motion coefficients: how close each canonical point is to each anchor; rows sum to 1."""
+        return torch.softmax(self._closeness(points), dim=-1)
+
+    def _closeness(self, points: Tensor) -> Tensor:
+        return -4.0 * (points.detach()[:, None] - self.anchors[None]).norm(dim=-1) / self.reach
 
     def smoothness(self) -> Tensor:
         """Mean squared second difference of the bases in time; 0 for fewer than three frames."""
