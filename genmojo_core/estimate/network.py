@@ -12,9 +12,12 @@ from typing import Any
 
 import cv2
 import numpy as np
+from safetensors import SafetensorError
 
 from genmojo_core.errors import GenmojoError
 
+# what the library raises for damaged or unfitting folders
+_FAULTS = (OSError, ValueError, KeyError, RuntimeError, ImportError, TypeError, SafetensorError)
 # mean and deviation of RGB in 0..1
 IMAGENET = (np.array([0.485, 0.456, 0.406], np.float32), np.array([0.229, 0.224, 0.225], np.float32))
 
@@ -42,7 +45,7 @@ def from_folder(folder: Path, class_name: str) -> Any:
                            "give a folder with config.json and weights")  # fmt: skip
     try:
         return loader.from_pretrained(str(folder), local_files_only=True)
-    except (OSError, ValueError, KeyError, RuntimeError, ImportError, TypeError) as error:
+    except _FAULTS as error:
         raise GenmojoError("missing_package", f"cannot be loaded as {class_name} ({error})", str(folder),
                            "give a complete folder of that kind of model") from error  # fmt: skip
 

@@ -34,6 +34,9 @@ class DepthNetwork:
         """Depth or disparity of every frame; raises GenmojoError("missing_package") as `network.load`."""
         model = network.load(self.folder, "AutoModelForDepthEstimation", self.device)
         metric = getattr(model.config, "depth_estimation_type", "relative") == "metric"
+        head = getattr(model, "head", None)
+        if head is not None and getattr(head, "max_depth", 1.0) is None:
+            head.max_depth = 1.0  # relative models leave it out of their config
         scale = network.colour_scale(self.folder)
         size = self._input_size(clip, _patch(model))
         value = np.stack([self._one(model, network.prepare(frame, size, scale), clip.size) for frame in clip.frames])
