@@ -155,6 +155,7 @@ def test_still_cameras_of_real_clips(name, still):
     assert ("stand still" in " ".join(complete(clip).guesses)) is still
 
 
+@pytest.mark.slow
 @pytest.mark.clips
 def test_moving_camera_and_order_of_a_clip_with_truth():
     path = shared_clip("blender-trio")
