@@ -23,24 +23,30 @@ import numba
 PACKAGE = Path(__file__).resolve().parents[1]
 SOURCES = ("kernels", "render/cpu", "scene/planes_cpu", "render/rasterizer.py")  # all that ends up in kernels
 
+_JIT: Any = numba.njit  # its stub does not know every option
+_OPTIONS = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
+
 
 def kernel(function: Callable) -> Any:
     """Compile on first call, without the interpreter lock, kept on disk where a folder can be written."""
     folder = cache_folder()
     if folder is None:
-        return numba.njit(nogil=True, error_model="numpy")(function)
+        return _JIT(**_OPTIONS)(function)
     settings: Any = numba.config
     before = settings.CACHE_DIR
     settings.CACHE_DIR = str(folder)  # read while the function is declared, so it can be put back at once
     try:
-        return numba.njit(nogil=True, cache=True, error_model="numpy")(function)
+        return _JIT(cache=True, **_OPTIONS)(function)
     finally:
         settings.CACHE_DIR = before
 
 
 def inlined(function: Callable) -> Any:
-    """A piece of a kernel: always inlined by LLVM, so that tuples and vectors stay in registers."""
-    return numba.njit(nogil=True, forceinline=True, error_model="numpy")(function)
+    """A piece of a kernel: always inlined by LLVM, so that tuples and vectors stay in registers.
+
+    It cannot be called from Python; leaving those wrappers out saves a fifth of the compile time.
+    """
+    return _JIT(forceinline=True, no_cpython_wrapper=True, **_OPTIONS)(function)
 
 
 def fingerprint(package: Path = PACKAGE) -> str:

@@ -13,11 +13,14 @@ import operator
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 from llvmlite import ir
 from numba.core import types
 from numba.core.cgutils import get_or_insert_function
 from numba.core.datamodel import models
 from numba.extending import intrinsic, lower_builtin, register_model, type_callable
+
+from genmojo_core.kernels.cache import inlined
 
 LANES = 8
 _F32 = ir.FloatType()
@@ -64,16 +67,6 @@ class _Mask8Model(models.PrimitiveModel):
 
     def __init__(self, dmm: Any, fe_type: Any) -> None:
         super().__init__(dmm, fe_type, _M8)
-
-
-def _constant(value: float) -> ir.Constant:
-    """The same number in all lanes."""
-    return ir.Constant(_F8, [value] * LANES)
-
-
-def _integers(value: int) -> ir.Constant:
-    """The same 32-bit integer in all lanes."""
-    return ir.Constant(_I8, [value] * LANES)
 
 
 def _broadcast(builder: ir.IRBuilder, scalar: ir.Value) -> ir.Value:
@@ -277,26 +270,45 @@ def trailing_zeros(typingctx: Any, value: types.Type) -> Any:
     return types.int64(types.int64), codegen
 
 
+# 1.5 * 2**23, then minimax coefficients of 2**r on [-1/2, 1/2], highest power first, the constant fixed: error 9e-8.
+_EXP2 = np.array(
+    [12582912.0, 1.326472606e-3, 9.671513044e-3, 5.55073375e-2, 0.2402224208, 0.6931469776, 1.0], np.float32
+)  # fmt: skip
+EXP2_FLOATS = 8 * len(_EXP2)  # size of the table that exp2_8 reads
+
+
+@inlined
+def prepare_exp2(table: np.ndarray) -> None:
+    """Write exp2_8's constants to the first EXP2_FLOATS elements of a flat float32 array.
+
+    From memory they enter the arithmetic as operands; as literals LLVM would fetch the address of each one anew.
+    """
+    for i in range(EXP2_FLOATS):
+        table[i] = _EXP2[i >> 3]
+
+
 @instruction
-def exp2_8(typingctx: Any, value: types.Type) -> Any:
-    """2**x per lane for -125 <= x <= 125, relative error 2e-7.
+def exp2_8(typingctx: Any, value: types.Type, table: types.Type) -> Any:
+    """2**x per lane for -125 <= x <= 125, relative error 2e-7; `table` from `prepare_exp2`.
 
     Adding 1.5 * 2**23 rounds x to the integer n; a polynomial gives 2**(x - n) and n is added to the exponent bits.
     """
-    # Minimax coefficients of 2**r on [-1/2, 1/2] with the constant fixed, highest power first: error 9e-8.
-    coefficients = (1.326472606e-3, 9.671513044e-3, 5.55073375e-2, 0.2402224208, 0.6931469776, 1.0)
 
     def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        (x,) = arguments
-        shifted = builder.fadd(x, _constant(12582912.0))
-        rest = builder.fsub(x, builder.fsub(shifted, _constant(12582912.0)))
-        power = _constant(coefficients[0])
-        for coefficient in coefficients[1:]:
-            power = _call(builder, "fmuladd", [power, rest, _constant(coefficient)])
-        exponent = builder.shl(builder.bitcast(shifted, _I8), _integers(23))
+        x, table = arguments
+        constants = []
+        for row in range(len(_EXP2)):
+            at = ir.Constant(ir.IntType(64), row * LANES)
+            constants.append(builder.load(_pointer(context, builder, signature.args[1], table, at), align=4))
+        shifted = builder.fadd(x, constants[0])
+        rest = builder.fsub(x, builder.fsub(shifted, constants[0]))
+        power = constants[1]
+        for constant in constants[2:]:
+            power = _call(builder, "fmuladd", [power, rest, constant])
+        exponent = builder.shl(builder.bitcast(shifted, _I8), ir.Constant(_I8, [23] * LANES))
         return builder.bitcast(builder.add(builder.bitcast(power, _I8), exponent), _F8)
 
-    return Float8(Float8), codegen
+    return Float8(Float8, table), codegen
 
 
 @instruction

@@ -64,7 +64,8 @@ class _Splat(torch.autograd.Function):
             np.zeros(shape, np.float32) if gradient is None else gradient.detach().numpy()
             for gradient, shape in zip(upstream, shapes, strict=True)
         ]
-        gradients, pose = backward(drawn, Rendering(*arrays))
-        pose_gradient = None if ctx.pose_dtype is None else torch.from_numpy(pose).to(ctx.pose_dtype)
+        wanted = ctx.needs_input_grad[2]
+        gradients, pose = backward(drawn, Rendering(*arrays), with_pose=wanted)
+        pose_gradient = torch.from_numpy(pose).to(ctx.pose_dtype) if wanted else None
         parts = (gradients.means, gradients.quats, gradients.scales, gradients.opacities, gradients.features)
         return None, None, pose_gradient, *(torch.from_numpy(p) for p in parts)

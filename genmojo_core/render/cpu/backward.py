@@ -10,7 +10,8 @@ and everything about the shape of splat i follows from six sums of v over its pi
 The gradient of its channels is sum w g_c. These 6 + slots sums go to the entry's own row, so that no two threads ever
 add to the same number and the result has the same bits for any number of threads.
 
-Each entry takes two loops over its blocks, moments first and channels second, so that all sums stay in registers.
+Each entry takes short loops over its blocks, one after the other: alphas, replay, moments, channels. So all sums stay
+in registers, and the processor works on several blocks at once instead of waiting for the long chain of one.
 """
 
 from __future__ import annotations
@@ -22,7 +23,6 @@ import numpy as np
 from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.kernels.simd import (
     broadcast8,
-    exp2_8,
     fma,
     load4x2,
     load8,
@@ -36,22 +36,30 @@ from genmojo_core.kernels.simd import (
 )  # fmt: skip
 from genmojo_core.render.cpu.bins import TILE, Bins
 from genmojo_core.render.cpu.forward import (
+    AHEAD,
+    ALPHAS,
     BLOCK_HEIGHT,
     BLOCK_WIDTH,
     BLOCKS,
-    CUT,
     LANES,
     MOST,
     STOP,
+    XS,
+    YS,
     Drawing,
-    exponent,
-    pixel_centres,
+    prepare,
+    write_alphas,
 )  # fmt: skip
 from genmojo_core.render.cpu.project import GEOMETRY
 
 MOMENTS = 6
-AHEAD = 6  # entries
 HEADER = 3  # vectors per block before the slots' gradients: T, S, gradient of alpha
+LONGEST_ROW = 24  # floats: moments and at most 16 slots, rounded up to 8
+# A tile's scratch, in floats: the forward pass's head, then weights, sums and the state of the blocks.
+WEIGHTS = ALPHAS + BLOCKS * LANES
+SUMS = WEIGHTS + BLOCKS * LANES
+STATE = SUMS + LONGEST_ROW * LANES
+FIRST_GRADIENT = STATE + HEADER * LANES
 
 
 class Slopes(NamedTuple):
@@ -63,99 +71,122 @@ class Slopes(NamedTuple):
 
 
 @inlined
-def read_tile(drawing: Drawing, slopes: Slopes, state: np.ndarray, place: tuple) -> None:
+def read_tile(drawing: Drawing, slopes: Slopes, scratch: np.ndarray, place: tuple) -> None:
     """Fill a tile's state: T = 1, S = the whole sum of w q, and the upstream gradients."""
     left, top, pitch, plane = place
     for block in range(BLOCKS):
-        cell = block * (HEADER + drawing.slots) * LANES
+        cell = STATE + block * (HEADER + drawing.slots) * LANES
         upper = (top + (block >> 2) * BLOCK_HEIGHT) * pitch + left + (block & 3) * BLOCK_WIDTH
         g = load4x2(slopes.planes, upper, upper + pitch)
         s = g * load4x2(drawing.planes, upper, upper + pitch)
-        store8(state, cell, splat8(np.float32(1)))
-        store8(state, cell + 2 * LANES, g)
+        store8(scratch, cell, splat8(np.float32(1)))
+        store8(scratch, cell + 2 * LANES, g)
         for c in range(drawing.slots):
             here = (1 + c) * plane + upper
             g = load4x2(slopes.planes, here, here + pitch)
-            store8(state, cell + (HEADER + c) * LANES, g)
+            store8(scratch, cell + (HEADER + c) * LANES, g)
             if c < drawing.attached:
                 s = fma(g, load4x2(drawing.planes, here, here + pitch), s)
-        store8(state, cell + LANES, s)
+        store8(scratch, cell + LANES, s)
 
 
 @inlined
-def moments(drawing: Drawing, at: int, mask: int, corner: tuple, scratch: tuple) -> int:
-    """First loop of one entry: replay the blending, write the six sums and the weights; returns the blocks' number."""
-    state, places, weights, cells, sums = scratch
-    records = drawing.records
-    stride = (HEADER + drawing.slots) * LANES
-    x, y = records[at] - corner[0], records[at + 1] - corner[1]
+def weighted_gradient(scratch: np.ndarray, cell: int, records: np.ndarray, first: int, attached: int) -> object:
+    """q = g_alpha + sum of g_c f_c over the attached channels, in two chains."""
+    q, r = load8(scratch, cell + 2 * LANES), splat8(np.float32(0))
+    gradients = cell + HEADER * LANES
+    for group in range(attached >> 3):
+        for k in range(4):
+            c = 8 * group + 2 * k
+            q = fma(broadcast8(records, first + c), load8(scratch, gradients + c * LANES), q)
+            r = fma(broadcast8(records, first + c + 1), load8(scratch, gradients + (c + 1) * LANES), r)
+    for c in range(attached & ~7, attached, 2):
+        q = fma(broadcast8(records, first + c), load8(scratch, gradients + c * LANES), q)
+        r = fma(broadcast8(records, first + c + 1), load8(scratch, gradients + (c + 1) * LANES), r)
+    return q + r
+
+
+@inlined
+def replay(records: np.ndarray, first: int, mask: int, sizes: tuple, scratch: np.ndarray) -> None:
+    """Second loop of one entry: blend again with the alphas just written; leave w and v block by block."""
+    attached, stride = sizes
+    zero, one = splat8(np.float32(0)), splat8(np.float32(1))
+    place = 0
+    while mask != 0:
+        cell = STATE + trailing_zeros(mask) * stride
+        mask &= mask - 1
+        t, full = load8(scratch, cell), load8(scratch, ALPHAS + place)
+        alpha = min8(full, MOST)
+        part = alpha * t
+        seen, rest = part > zero, t - part
+        going = seen & (rest > STOP)
+        after = select8(rest > STOP, rest, zero - t)
+        store8(scratch, cell, select8(seen, after, t))
+        w = select8(going, part, zero)
+        q = weighted_gradient(scratch, cell, records, first, attached)
+        s = load8(scratch, cell + LANES) - w * q
+        store8(scratch, cell + LANES, s)
+        store8(scratch, WEIGHTS + place, w)
+        v = alpha * (t * q - s / (one - alpha))
+        store8(scratch, ALPHAS + place, select8(going & (full <= MOST), v, zero))
+        place += LANES
+
+
+@inlined
+def moments(records: np.ndarray, at: int, hit: int, stride: int, corner: tuple, scratch: np.ndarray) -> None:
+    """Third loop of one entry: the six sums of v, and the sums of w g_c of the first two slots."""
+    x, y = broadcast8(records, at) - corner[0], broadcast8(records, at + 1) - corner[1]
     zero = splat8(np.float32(0))
-    m0, m1, m2, m3, m4, m5 = zero, zero, zero, zero, zero, zero
-    count = 0
+    m0, m1, m2, m3, m4, m5, m6, m7 = zero, zero, zero, zero, zero, zero, zero, zero
+    mask, place = hit, 0
     while mask != 0:
         block = trailing_zeros(mask)
         mask &= mask - 1
-        dx = load8(places, block * LANES) - x
-        dy = load8(places, (BLOCKS + block) * LANES) - y
-        e = exponent(records, at, dx, dy)
-        cell = block * stride
-        t = load8(state, cell)
-        seen = (e >= CUT) & (t > np.float32(0))
-        full = exp2_8(e)
-        alpha = min8(full, MOST)
-        part = alpha * t
-        rest = t - part
-        going = seen & (rest > STOP)
-        store8(state, cell, select8(seen, select8(rest > STOP, rest, np.float32(0) - t), t))
-        w = select8(going, part, zero)
-        q, r = load8(state, cell + 2 * LANES), zero
-        for c in range(drawing.attached >> 1):
-            here = cell + (HEADER + 2 * c) * LANES
-            f = at + GEOMETRY + 2 * c
-            q = fma(broadcast8(records, f), load8(state, here), q)
-            r = fma(broadcast8(records, f + 1), load8(state, here + LANES), r)
-        q = q + r
-        s = load8(state, cell + LANES) - w * q
-        store8(state, cell + LANES, s)
-        slope = t * q - s / (np.float32(1) - alpha)
-        v = select8(going & (full <= MOST), alpha * slope, zero)
-        store8(weights, count * LANES, w)
-        cells[count] = cell
-        count += 1
+        dx, dy = load8(scratch, XS + block * LANES) - x, load8(scratch, YS + block * LANES) - y
+        v, w = load8(scratch, ALPHAS + place), load8(scratch, WEIGHTS + place)
+        place += LANES
         vx, vy = v * dx, v * dy
         m0, m1, m2 = m0 + v, m1 + vx, m2 + vy
         m3, m4, m5 = fma(vx, dx, m3), fma(vx, dy, m4), fma(vy, dy, m5)
-    for k, m in enumerate((m0, m1, m2, m3, m4, m5)):
-        store8(sums, k * LANES, m)
-    return count
+        cell = FIRST_GRADIENT + block * stride
+        m6, m7 = fma(w, load8(scratch, cell), m6), fma(w, load8(scratch, cell + LANES), m7)
+    for k, m in enumerate((m0, m1, m2, m3, m4, m5, m6, m7)):
+        store8(scratch, SUMS + k * LANES, m)
 
 
 @inlined
-def channel_sums(slots: int, count: int, scratch: tuple) -> None:
-    """Second loop of one entry: sum of w g_c for every slot, as vectors behind the moments."""
-    state, _, weights, cells, sums = scratch
+def channel_sums(scratch: np.ndarray, hit: int, slots: int, stride: int) -> None:
+    """Last loops of one entry: sum of w g_c over the blocks `hit` for slots 2, 3, ...; eight, four, two at a time."""
     zero = splat8(np.float32(0))
-    for c in range(0, slots - 2, 4):
+    first = 2
+    while slots - first >= 8:
+        s0, s1, s2, s3, s4, s5, s6, s7 = zero, zero, zero, zero, zero, zero, zero, zero
+        mask, weights = hit, WEIGHTS
+        while mask != 0:
+            cell = FIRST_GRADIENT + trailing_zeros(mask) * stride + first * LANES
+            mask &= mask - 1
+            w = load8(scratch, weights)
+            weights += LANES
+            s0, s1 = fma(w, load8(scratch, cell), s0), fma(w, load8(scratch, cell + 8), s1)
+            s2, s3 = fma(w, load8(scratch, cell + 16), s2), fma(w, load8(scratch, cell + 24), s3)
+            s4, s5 = fma(w, load8(scratch, cell + 32), s4), fma(w, load8(scratch, cell + 40), s5)
+            s6, s7 = fma(w, load8(scratch, cell + 48), s6), fma(w, load8(scratch, cell + 56), s7)
+        for k, s in enumerate((s0, s1, s2, s3, s4, s5, s6, s7)):
+            store8(scratch, SUMS + (MOMENTS + first + k) * LANES, s)
+        first += 8
+    while first < slots:  # of the last four, two may lie behind the slots: they are summed and never read
         s0, s1, s2, s3 = zero, zero, zero, zero
-        for k in range(count):
-            w = load8(weights, k * LANES)
-            here = cells[np.uint64(k)] + (HEADER + c) * LANES
-            s0 = fma(w, load8(state, here), s0)
-            s1 = fma(w, load8(state, here + LANES), s1)
-            s2 = fma(w, load8(state, here + 2 * LANES), s2)
-            s3 = fma(w, load8(state, here + 3 * LANES), s3)
+        mask, weights = hit, WEIGHTS
+        while mask != 0:
+            cell = FIRST_GRADIENT + trailing_zeros(mask) * stride + first * LANES
+            mask &= mask - 1
+            w = load8(scratch, weights)
+            weights += LANES
+            s0, s1 = fma(w, load8(scratch, cell), s0), fma(w, load8(scratch, cell + 8), s1)
+            s2, s3 = fma(w, load8(scratch, cell + 16), s2), fma(w, load8(scratch, cell + 24), s3)
         for k, s in enumerate((s0, s1, s2, s3)):
-            store8(sums, (MOMENTS + c + k) * LANES, s)
-    if slots & 2:
-        c = slots - 2
-        s0, s1 = zero, zero
-        for k in range(count):
-            w = load8(weights, k * LANES)
-            here = cells[np.uint64(k)] + (HEADER + c) * LANES
-            s0 = fma(w, load8(state, here), s0)
-            s1 = fma(w, load8(state, here + LANES), s1)
-        store8(sums, (MOMENTS + c) * LANES, s0)
-        store8(sums, (MOMENTS + c + 1) * LANES, s1)
+            store8(scratch, SUMS + (MOMENTS + first + k) * LANES, s)
+        first += 4
 
 
 @kernel
@@ -163,27 +194,30 @@ def slope_tiles(start: int, stop: int, drawing: Drawing, bins: Bins, slopes: Slo
     """Write the gradient rows of all entries of tiles start..stop-1 that forward saw."""
     slots = drawing.slots
     width = GEOMETRY + slots
-    state = np.empty(BLOCKS * (HEADER + slots) * LANES, np.float32)
-    places = np.empty(2 * BLOCKS * LANES, np.float32)
-    weights = np.empty(BLOCKS * LANES, np.float32)
-    sums = np.zeros(slopes.row * LANES, np.float32)
-    scratch = (state, places, weights, np.empty(BLOCKS, np.int64), sums)
-    pixel_centres(places)
+    stride = (HEADER + slots) * LANES
+    scratch = np.empty(STATE + (BLOCKS + 1) * stride, np.float32)  # one block to spare: channel_sums reads over the end
+    scratch[:] = 0
+    prepare(scratch)
     pitch = bins.tiles_x * TILE
     for tile in range(start, stop):
         left, top = (tile % bins.tiles_x) * TILE, (tile // bins.tiles_x) * TILE
         last = bins.tile_start[tile + 1]
         if bins.tile_start[tile] == last:
             continue
-        read_tile(drawing, slopes, state, (left, top, pitch, pitch * bins.tiles_y * TILE))
+        read_tile(drawing, slopes, scratch, (left, top, pitch, pitch * bins.tiles_y * TILE))
         corner = (np.float32(left), np.float32(top))
         for entry in range(bins.tile_start[tile], last):
             slot = bins.slot[entry]
-            mask = int(drawing.hits[slot])
-            if mask == 0:
+            hit = int(drawing.hits[slot])
+            if hit == 0:
                 continue
-            prefetch(drawing.records, bins.rank[min(entry + AHEAD, last - 1)] * width)
-            count = moments(drawing, bins.rank[entry] * width, mask, corner, scratch)
-            channel_sums(slots, count, scratch)
+            coming = min(entry + AHEAD, last - 1)
+            prefetch(drawing.records, bins.rank[coming] * width)
+            prefetch(slopes.rows, bins.slot[coming] * slopes.row)
+            at = bins.rank[entry] * width
+            write_alphas(drawing.records, at, hit, corner, scratch)
+            replay(drawing.records, at + GEOMETRY, hit, (drawing.attached, stride), scratch)
+            moments(drawing.records, at, hit, stride, corner, scratch)
+            channel_sums(scratch, hit, slots, stride)
             for k in range(0, slopes.row, LANES):
-                store8(slopes.rows, slot * slopes.row + k, sum_rows(sums, k * LANES))
+                store8(slopes.rows, slot * slopes.row + k, sum_rows(scratch, SUMS + k * LANES))

@@ -85,7 +85,7 @@ def _tiles(box: np.ndarray, rank: int) -> tuple:
 
 
 @kernel
-def count_slots(box: np.ndarray, first_slot: np.ndarray) -> tuple[int, int]:
+def count_slots(box: np.ndarray, first_slot: np.ndarray) -> tuple:
     """Fill first_slot (M + 1,) int64; the number of all entries and the rank of the widest splat."""
     first_slot[0] = 0
     worst, most = 0, 0

@@ -21,6 +21,7 @@ import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.kernels.simd import (
+    EXP2_FLOATS,
     bits,
     broadcast8,
     exp2_8,
@@ -28,6 +29,7 @@ from genmojo_core.kernels.simd import (
     load8,
     min8,
     prefetch,
+    prepare_exp2,
     select8,
     splat8,
     store4x2,
@@ -45,6 +47,11 @@ CUT = np.float32(math.log2(ALPHA_MIN))
 MOST = np.float32(ALPHA_MAX)
 STOP = np.float32(TRANSMITTANCE_MIN)
 AHEAD = 6  # entries
+# A tile's scratch, in floats: constants of exp2, pixel centres, one entry's alphas, then the state of the blocks.
+XS = EXP2_FLOATS
+YS = XS + BLOCKS * LANES
+ALPHAS = YS + BLOCKS * LANES
+STATE = ALPHAS + BLOCKS * LANES
 
 
 class Drawing(NamedTuple):
@@ -78,71 +85,81 @@ def inside_mask(left: int, top: int, width: int, height: int) -> int:
 
 
 @inlined
-def pixel_centres(places: np.ndarray) -> None:
-    """Fill (512,) float32: x of the 32 x 8 pixel centres inside a tile, then y."""
+def prepare(scratch: np.ndarray) -> None:
+    """Fill the head of a tile's scratch: constants of exp2, then x and y of the 32 x 8 pixel centres inside a tile."""
+    prepare_exp2(scratch)
     for block in range(BLOCKS):
         for lane in range(LANES):
             at = block * LANES + lane
-            places[at] = (block & 3) * BLOCK_WIDTH + (lane & 3) + 0.5
-            places[BLOCKS * LANES + at] = (block >> 2) * BLOCK_HEIGHT + (lane >> 2) + 0.5
+            scratch[XS + at] = (block & 3) * BLOCK_WIDTH + (lane & 3) + 0.5
+            scratch[YS + at] = (block >> 2) * BLOCK_HEIGHT + (lane >> 2) + 0.5
 
 
 @inlined
-def exponent(records: np.ndarray, at: int, dx: object, dy: object) -> object:
-    """log2 of the unclamped alpha of one record at pixel offsets dx, dy (Float8)."""
-    inner = fma(broadcast8(records, at + 2), dx, broadcast8(records, at + 3) * dy)
-    return fma(dx, inner, fma(broadcast8(records, at + 4) * dy, dy, broadcast8(records, at + 5)))
+def add_channels(scratch: np.ndarray, at: int, records: np.ndarray, first: int, slots: int, w: object) -> None:
+    """Eight pixels' sums, one vector per slot from `at` on, += w times the record's channels from `first` on."""
+    for group in range(slots >> 3):
+        for k in range(8):
+            place = at + (8 * group + k) * LANES
+            store8(scratch, place, fma(w, broadcast8(records, first + 8 * group + k), load8(scratch, place)))
+    for pair in range((slots & ~7) >> 1, slots >> 1):
+        for k in range(2):
+            place = at + (2 * pair + k) * LANES
+            store8(scratch, place, fma(w, broadcast8(records, first + 2 * pair + k), load8(scratch, place)))
 
 
 @inlined
-def blend(drawing: Drawing, at: int, mask: int, corner: tuple, scratch: tuple) -> tuple:
-    """Blend one record into the blocks of `mask`; returns the blocks seen and the blocks now finished."""
-    state, places = scratch
-    records, slots = drawing.records, drawing.slots
-    stride = (1 + slots) * LANES
-    x, y = records[at] - corner[0], records[at + 1] - corner[1]
-    seen_blocks, finished = 0, 0
+def write_alphas(records: np.ndarray, at: int, mask: int, corner: tuple, scratch: np.ndarray) -> None:
+    """Alpha of the record at `at`, not clamped, 0 under the cut, block by block of `mask` from ALPHAS on."""
+    x, y = broadcast8(records, at) - corner[0], broadcast8(records, at + 1) - corner[1]
+    a, b, c = broadcast8(records, at + 2), broadcast8(records, at + 3), broadcast8(records, at + 4)
+    log_opacity = broadcast8(records, at + 5)
+    place = ALPHAS
     while mask != 0:
         block = trailing_zeros(mask)
         mask &= mask - 1
-        dx = load8(places, block * LANES) - x
-        dy = load8(places, (BLOCKS + block) * LANES) - y
-        e = exponent(records, at, dx, dy)
-        cell = block * stride
-        t = load8(state, cell)
-        seen = (e >= CUT) & (t > np.float32(0))
-        if bits(seen) == 0:
-            continue
-        seen_blocks |= 1 << block
-        part = min8(exp2_8(e), MOST) * t
-        rest = t - part
-        going = rest > STOP
-        t = select8(seen, select8(going, rest, np.float32(0) - t), t)
-        w = select8(seen & going, part, np.float32(0))
-        store8(state, cell, t)
-        for c in range(slots >> 1):
-            here = cell + (1 + 2 * c) * LANES
-            f = at + GEOMETRY + 2 * c
-            store8(state, here, fma(w, broadcast8(records, f), load8(state, here)))
-            store8(state, here + LANES, fma(w, broadcast8(records, f + 1), load8(state, here + LANES)))
-        if bits(t > np.float32(0)) == 0:
+        dx, dy = load8(scratch, XS + block * LANES) - x, load8(scratch, YS + block * LANES) - y
+        e = fma(dx, fma(a, dx, b * dy), fma(c * dy, dy, log_opacity))
+        store8(scratch, place, select8(e >= CUT, exp2_8(e, scratch), np.float32(0)))
+        place += LANES
+
+
+@inlined
+def blend(records: np.ndarray, first: int, slots: int, mask: int, scratch: np.ndarray) -> tuple:
+    """Blend the channels from `first` on with the alphas just written; the blocks seen and the blocks now finished."""
+    zero = splat8(np.float32(0))
+    seen_blocks, finished, place = 0, 0, ALPHAS
+    while mask != 0:
+        block = trailing_zeros(mask)
+        mask &= mask - 1
+        cell = STATE + block * (1 + slots) * LANES
+        t = load8(scratch, cell)
+        part = min8(load8(scratch, place), MOST) * t
+        place += LANES
+        seen, rest = part > zero, t - part
+        after = select8(rest > STOP, rest, zero - t)
+        going = seen & (rest > STOP)
+        store8(scratch, cell, select8(seen, after, t))
+        seen_blocks |= int(bits(seen) != 0) << block
+        add_channels(scratch, cell + LANES, records, first, slots, select8(going, part, zero))
+        if bits(going) != bits(seen) and bits(load8(scratch, cell) > zero) == 0:
             finished |= 1 << block
     return seen_blocks, finished
 
 
 @inlined
-def write_tile(drawing: Drawing, state: np.ndarray, left: int, top: int, pitch: int, plane: int) -> None:
+def write_tile(drawing: Drawing, scratch: np.ndarray, left: int, top: int, pitch: int, plane: int) -> None:
     """Copy a tile's state into the padded planes: alpha = 1 - |T|, then the slots."""
     slots = drawing.slots
     for block in range(BLOCKS):
-        cell = block * (1 + slots) * LANES
+        cell = STATE + block * (1 + slots) * LANES
         place = (top + (block >> 2) * BLOCK_HEIGHT) * pitch + left + (block & 3) * BLOCK_WIDTH
-        t = load8(state, cell)
+        t = load8(scratch, cell)
         t = select8(t > np.float32(0), t, np.float32(0) - t)
         store4x2(drawing.planes, place, place + pitch, np.float32(1) - t)
         for c in range(slots):
             here = (1 + c) * plane + place
-            store4x2(drawing.planes, here, here + pitch, load8(state, cell + (1 + c) * LANES))
+            store4x2(drawing.planes, here, here + pitch, load8(scratch, cell + (1 + c) * LANES))
 
 
 @kernel
@@ -150,15 +167,14 @@ def draw_tiles(start: int, stop: int, drawing: Drawing, bins: Bins) -> None:
     """Blend tiles start..stop-1 into the planes and record which blocks each entry was seen in."""
     slots = drawing.slots
     width = GEOMETRY + slots
-    state = np.empty(BLOCKS * (1 + slots) * LANES, np.float32)
-    places = np.empty(2 * BLOCKS * LANES, np.float32)
-    pixel_centres(places)
+    scratch = np.empty(STATE + BLOCKS * (1 + slots) * LANES, np.float32)
+    prepare(scratch)
     pitch = bins.tiles_x * TILE
     for tile in range(start, stop):
         left, top = (tile % bins.tiles_x) * TILE, (tile // bins.tiles_x) * TILE
-        state[:] = 0
+        scratch[STATE:] = 0
         for block in range(BLOCKS):
-            store8(state, block * (1 + slots) * LANES, splat8(np.float32(1)))
+            store8(scratch, STATE + block * (1 + slots) * LANES, splat8(np.float32(1)))
         alive = inside_mask(left, top, drawing.width, drawing.height)
         corner = (np.float32(left), np.float32(top))
         last = bins.tile_start[tile + 1]
@@ -167,9 +183,10 @@ def draw_tiles(start: int, stop: int, drawing: Drawing, bins: Bins) -> None:
             prefetch(drawing.records, bins.rank[min(entry + AHEAD, last - 1)] * width)
             mask = block_mask(bins.box, rank, left, top) & alive
             if mask != 0:
-                seen, finished = blend(drawing, rank * width, mask, corner, (state, places))
+                write_alphas(drawing.records, rank * width, mask, corner, scratch)
+                seen, finished = blend(drawing.records, rank * width + GEOMETRY, slots, mask, scratch)
                 drawing.hits[bins.slot[entry]] = seen
                 alive &= ~finished
                 if alive == 0:
                     break
-        write_tile(drawing, state, left, top, pitch, pitch * bins.tiles_y * TILE)
+        write_tile(drawing, scratch, left, top, pitch, pitch * bins.tiles_y * TILE)

@@ -3,9 +3,9 @@
 Camera space t = W x + t0 with z = t_z; u = t_x / z, v = t_y / z; centre (f_x u + c_x, f_y v + c_y). The Jacobian of
 the projection is taken at u, v clamped to the image's field of view plus 15 % of its size on each side (METHOD.md
 section 5; the limits come from the principal point, so a crop clamps like the picture it was cut from). With
-P = J W R diag(s), a 2 x 3 matrix, the ellipse is Sigma = P P' + d I, d the view's dilation, and its inverse is the
-conic (a, b, c): alpha = o exp(-(a dx^2 + 2 b dx dy + c dy^2) / 2). The determinant of Sigma is the sum of the squared
-2 x 2 minors of P plus d tr(P P') + d^2: no cancellation, so needles stay positive definite.
+P = J W R diag(s), a 2 x 3 matrix, the ellipse is Sigma = P P' + 0.3 I and its inverse is the conic (a, b, c):
+alpha = o exp(-(a dx^2 + 2 b dx dy + c dy^2) / 2). The determinant of Sigma is the sum of the squared 2 x 2 minors of P
+plus 0.3 tr(P P') + 0.09: no cancellation, so needles stay positive definite.
 
 The box outside which alpha < 1/255 is exact: half-widths sqrt(2 ln(255 o) Sigma_xx), sqrt(2 ln(255 o) Sigma_yy).
 Everything per splat is float64; what the pixel loops read is float32.
@@ -20,10 +20,11 @@ import numpy as np
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.kernels.cache import inlined, kernel
-from genmojo_core.render.rasterizer import ALPHA_MIN, FRUSTUM_CLAMP
+from genmojo_core.render.rasterizer import ALPHA_MIN, DILATION, FRUSTUM_CLAMP
 
 LOG2_E = 1.4426950408889634
 SHORTEST_QUATERNION = 1e-12
+WIDEST = 1e7  # pixels: an ellipse that reaches further is a fault, and would overflow float32 in backward
 GEOMETRY = 6  # floats per splat read by the pixel loops: centre x, y, three quadratic terms, log2 of the opacity
 
 
@@ -37,7 +38,6 @@ class Lens(NamedTuple):
     depths: np.ndarray  # (2,) float64: near, far
     width: int
     height: int
-    dilation: float  # px^2
 
 
 class Cloud(NamedTuple):
@@ -75,23 +75,21 @@ def lens_of(view: View, pose: np.ndarray | None = None) -> Lens:
         np.array([view.near, view.far], dtype=np.float64),
         int(view.width),
         int(view.height),
-        float(view.dilation),
     )
 
 
 @inlined
 def _rotation(quats: np.ndarray, i: int) -> tuple:
-    """Inverse length of quaternion i (0 where it has none), its unit form and the nine entries of its matrix."""
+    """Length of quaternion i and the rows of its matrix (of no meaning where it has no length)."""
     w, x, y, z = float(quats[i, 0]), float(quats[i, 1]), float(quats[i, 2]), float(quats[i, 3])
-    length = math.sqrt(w * w + x * x + y * y + z * z)
-    inverse = 1.0 / length if length > SHORTEST_QUATERNION and length < math.inf else 0.0
-    w, x, y, z = w * inverse, x * inverse, y * inverse, z * inverse
+    square = w * w + x * x + y * y + z * z
+    k = 2.0 / max(square, 1e-300)
     return (
-        inverse, (w, x, y, z),
-        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
-    )  # fmt: skip
+        math.sqrt(square),
+        (1 - k * (y * y + z * z), k * (x * y - w * z), k * (x * z + w * y)),
+        (k * (x * y + w * z), 1 - k * (x * x + z * z), k * (y * z - w * x)),
+        (k * (x * z - w * y), k * (y * z + w * x), 1 - k * (x * x + y * y)),
+    )
 
 
 @inlined
@@ -107,36 +105,31 @@ def camera_point(lens: Lens, means: np.ndarray, i: int) -> tuple:
 
 
 @inlined
-def footprint(lens: Lens, cloud: Cloud, i: int, point: tuple) -> tuple:
-    """Everything both passes need of splat i in front of the camera.
+def _dot(g: tuple, r0: tuple, r1: tuple, r2: tuple, column: int) -> float:
+    """Row vector g times one column of the matrix with rows r0, r1, r2."""
+    return g[0] * r0[column] + g[1] * r1[column] + g[2] * r2[column]
 
-    Returns (inverse quaternion length, unit quaternion), (u, v, u is free, v is free), V = W R as three rows, the rows
-    Q = V_row - u V_z of P without focal length and scale, P's two rows, and Sigma (xx, xy, yy, determinant).
-    """
-    fx, fy = lens.focal[0], lens.focal[1]
-    inverse, unit, r0, r1, r2 = _rotation(cloud.quats, i)
+
+@inlined
+def ellipse(lens: Lens, cloud: Cloud, i: int, point: tuple) -> tuple:
+    """Sigma of splat i in front of the camera: xx, xy, yy with dilation, determinant, and the quaternion's length."""
+    length, r0, r1, r2 = _rotation(cloud.quats, i)
     w = lens.rotation
-    s0, s1, s2 = float(cloud.scales[i, 0]), float(cloud.scales[i, 1]), float(cloud.scales[i, 2])
-    u0, v0 = point[0] / point[2], point[1] / point[2]
-    u = min(max(u0, lens.limits[0]), lens.limits[1])
-    v = min(max(v0, lens.limits[2]), lens.limits[3])
-    vx = (w[0, 0] * r0[0] + w[0, 1] * r1[0] + w[0, 2] * r2[0], w[0, 0] * r0[1] + w[0, 1] * r1[1] + w[0, 2] * r2[1],
-          w[0, 0] * r0[2] + w[0, 1] * r1[2] + w[0, 2] * r2[2])  # fmt: skip
-    vy = (w[1, 0] * r0[0] + w[1, 1] * r1[0] + w[1, 2] * r2[0], w[1, 0] * r0[1] + w[1, 1] * r1[1] + w[1, 2] * r2[1],
-          w[1, 0] * r0[2] + w[1, 1] * r1[2] + w[1, 2] * r2[2])  # fmt: skip
-    vz = (w[2, 0] * r0[0] + w[2, 1] * r1[0] + w[2, 2] * r2[0], w[2, 0] * r0[1] + w[2, 1] * r1[1] + w[2, 2] * r2[1],
-          w[2, 0] * r0[2] + w[2, 1] * r1[2] + w[2, 2] * r2[2])  # fmt: skip
-    jx, jy = fx / point[2], fy / point[2]
-    px = (jx * s0 * (vx[0] - u * vz[0]), jx * s1 * (vx[1] - u * vz[1]), jx * s2 * (vx[2] - u * vz[2]))
-    py = (jy * s0 * (vy[0] - v * vz[0]), jy * s1 * (vy[1] - v * vz[1]), jy * s2 * (vy[2] - v * vz[2]))
+    s = (float(cloud.scales[i, 0]), float(cloud.scales[i, 1]), float(cloud.scales[i, 2]))
+    u = min(max(point[0] / point[2], lens.limits[0]), lens.limits[1])
+    v = min(max(point[1] / point[2], lens.limits[2]), lens.limits[3])
+    jx, jy = lens.focal[0] / point[2], lens.focal[1] / point[2]
+    # rows of J W, then of P = J W R diag(s)
+    gx = (jx * (w[0, 0] - u * w[2, 0]), jx * (w[0, 1] - u * w[2, 1]), jx * (w[0, 2] - u * w[2, 2]))
+    gy = (jy * (w[1, 0] - v * w[2, 0]), jy * (w[1, 1] - v * w[2, 1]), jy * (w[1, 2] - v * w[2, 2]))
+    px = (s[0] * _dot(gx, r0, r1, r2, 0), s[1] * _dot(gx, r0, r1, r2, 1), s[2] * _dot(gx, r0, r1, r2, 2))
+    py = (s[0] * _dot(gy, r0, r1, r2, 0), s[1] * _dot(gy, r0, r1, r2, 1), s[2] * _dot(gy, r0, r1, r2, 2))
     xx = px[0] * px[0] + px[1] * px[1] + px[2] * px[2]
     xy = px[0] * py[0] + px[1] * py[1] + px[2] * py[2]
     yy = py[0] * py[0] + py[1] * py[1] + py[2] * py[2]
     m0, m1, m2 = px[0] * py[1] - px[1] * py[0], px[0] * py[2] - px[2] * py[0], px[1] * py[2] - px[2] * py[1]
-    d = lens.dilation
-    det = m0 * m0 + m1 * m1 + m2 * m2 + d * (xx + yy) + d * d
-    sigma = (xx + d, xy, yy + d, det)
-    return (inverse, unit), (u0, v0, u, v), (vx, vy, vz), (px, py), sigma
+    det = m0 * m0 + m1 * m1 + m2 * m2 + DILATION * (xx + yy) + DILATION * DILATION
+    return (xx + DILATION, xy, yy + DILATION, det), length
 
 
 @inlined
@@ -152,7 +145,7 @@ def project_range(start: int, stop: int, lens: Lens, cloud: Cloud, out: Ellipses
     """Project splats start..stop-1.
 
     Not drawn, with an empty box: depth outside near..far, opacity below 1/255, a quaternion without length, an ellipse
-    off the image, anything not finite.
+    off the image or reaching further than WIDEST, anything not finite.
     """
     for i in range(start, stop):
         out.box[i, 0], out.box[i, 1], out.box[i, 2], out.box[i, 3] = 1, 0, 1, 0
@@ -160,11 +153,13 @@ def project_range(start: int, stop: int, lens: Lens, cloud: Cloud, out: Ellipses
         opacity = float(cloud.opacities[i])
         if not (point[2] >= lens.depths[0] and point[2] <= lens.depths[1] and opacity >= ALPHA_MIN):
             continue
-        (inverse, _), (u0, v0, _, _), _, _, (xx, xy, yy, det) = footprint(lens, cloud, i, point)
-        x, y = lens.focal[0] * u0 + lens.focal[2], lens.focal[1] * v0 + lens.focal[3]
+        (xx, xy, yy, det), length = ellipse(lens, cloud, i, point)
+        x = lens.focal[0] * (point[0] / point[2]) + lens.focal[2]
+        y = lens.focal[1] * (point[1] / point[2]) + lens.focal[3]
         reach = 2 * math.log(opacity / ALPHA_MIN)
         half_x, half_y = math.sqrt(reach * xx), math.sqrt(reach * yy)
-        if not (inverse > 0 and det < math.inf and abs(x) + half_x < 1e30 and abs(y) + half_y < 1e30):
+        fits = half_x <= WIDEST and half_y <= WIDEST and abs(x) < 1e30 and abs(y) < 1e30
+        if not (fits and length > SHORTEST_QUATERNION and length < math.inf):
             continue
         first_x, last_x = _span(x, half_x, lens.width)
         first_y, last_y = _span(y, half_y, lens.height)

@@ -1,4 +1,4 @@
-"""From the pixel sums of one splat back to its mean, quaternion, scales, opacity, channels, and to the camera.
+"""From the pixel sums of each splat back to its mean, quaternion, scales, opacity, channels, and to the camera.
 
 With the moments M of v (backward.py), dx = pixel - centre and the conic (a, b, c):
 
@@ -7,151 +7,262 @@ With the moments M of v (backward.py), dx = pixel - centre and the conic (a, b, 
     dL/dopacity = M_1 / opacity
     dL/dP = 2 dL/dSigma P,  and P = J W R diag(s) is taken apart row by row (project.py).
 
-Where u or v was clamped, the Jacobian gives no gradient to the position; the centre always does.
+Where u or v was clamped, the Jacobian gives no gradient to the position; the centre always does. Eight splats are done
+at once, one per lane: their numbers are collected into rows of eight, and the results handed out again.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import math
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
+from genmojo_core.kernels.simd import fma, load8, select8, splat8, store8
 from genmojo_core.render.cpu.bins import Bins
-from genmojo_core.render.cpu.project import Cloud, Lens, camera_point, footprint
+from genmojo_core.render.cpu.project import Cloud, Lens
+from genmojo_core.render.rasterizer import DILATION
 
+LANES = 8
 MOMENTS = 6
+# Rows of eight lanes in a group's scratch.
+MEAN, QUAT, SCALE, SUMS = 0, 3, 7, 10  # 3, 4 (unit), 3 and 7 rows of input
+ALONG, POSE = 17, 28  # results: mean 3, quaternion 4 (before the normalisation), scales 3, spare; then pose 12
+TOTAL = 40 * LANES  # a splat's summed row, up to 24 floats
+SCRATCH = TOTAL + 24
 
 
 class Gradients(NamedTuple):
-    """Gradients of a scalar with respect to everything the rasteriser took in. N splats."""
+    """Gradients of a scalar with respect to everything the rasteriser took in; kernels add to them. N splats."""
 
     means: np.ndarray  # (N, 3) float32
     quats: np.ndarray  # (N, 4) float32
     scales: np.ndarray  # (N, 3) float32
     opacities: np.ndarray  # (N,) float32
-    channels: np.ndarray  # (N, slots) float32; slot 0 (depth) already went to the means and stays 0
-    pose: np.ndarray  # (jobs, 3, 4) float64: partial sums for world_to_camera's upper three rows
+    features: np.ndarray  # (N, C) float32
+    pose: np.ndarray  # (jobs, 12) float64: partial sums for world_to_camera's upper three rows; (0, 12): not wanted
 
 
 class Sums(NamedTuple):
-    """Gradient rows of one view's entries, by slot."""
+    """Gradient rows of one pass's entries, by slot."""
 
     rows: np.ndarray  # (E * row,) float32
     row: int
     hits: np.ndarray  # (E,) uint32; rows of entries without hits were never written
+    columns: np.ndarray  # (slots,) int64: the feature each channel slot belongs to, -1 for none
 
 
 @inlined
-def add_rows(sums: Sums, first: int, last: int, total: np.ndarray) -> bool:
-    """Sum the rows of slots first..last-1 into total (row,) float64; False where none was hit."""
-    total[:] = 0
+def add_rows(sums: Sums, first: int, last: int, scratch: np.ndarray) -> bool:
+    """Sum the rows of slots first..last-1 into the scratch's TOTAL; False where none was hit."""
     hit = False
     for slot in range(first, last):
-        if sums.hits[slot] != 0:
-            hit = True
-            for k in range(sums.row):
-                total[k] += sums.rows[slot * sums.row + k]
+        if sums.hits[slot] == 0:
+            continue
+        for k in range(0, sums.row, LANES):
+            value = load8(sums.rows, slot * sums.row + k)
+            if hit:
+                value = value + load8(scratch, TOTAL + k)
+            store8(scratch, TOTAL + k, value)
+        hit = True
     return hit
 
 
 @inlined
-def shape_gradient(total: np.ndarray, sigma: tuple) -> tuple:
-    """Moments to dL/dcentre (x, y) and the symmetric dL/dSigma (xx, xy, yy)."""
-    xx, xy, yy, det = sigma
-    a, b, c = yy / det, -xy / det, xx / det
-    mx, my, mxx, mxy, myy = total[1], total[2], 0.5 * total[3], 0.5 * total[4], 0.5 * total[5]
-    # conic M conic, written out
+def collect(scratch: np.ndarray, lane: int, cloud: Cloud, i: int, inverse: float) -> None:
+    """Write splat i's numbers and its total into one lane; a lane without a splat (i < 0) computes harmlessly."""
+    for k in range(3):
+        scratch[(MEAN + k) * LANES + lane] = cloud.means[i, k]
+        scratch[(SCALE + k) * LANES + lane] = cloud.scales[i, k]
+    for k in range(4):
+        scratch[(QUAT + k) * LANES + lane] = cloud.quats[i, k] * inverse
+    for k in range(MOMENTS + 1):
+        scratch[(SUMS + k) * LANES + lane] = scratch[TOTAL + k]
+
+
+@inlined
+def row(scratch: np.ndarray, index: int) -> object:
+    """One row (Float8) of the scratch."""
+    return load8(scratch, index * LANES)
+
+
+@inlined
+def dot3(a: tuple, b: tuple) -> object:
+    """Sum of three products."""
+    return fma(a[0], b[0], fma(a[1], b[1], a[2] * b[2]))
+
+
+@inlined
+def matrix(scratch: np.ndarray) -> tuple:
+    """Rows of R from the unit quaternions."""
+    w, x, y, z = row(scratch, QUAT), row(scratch, QUAT + 1), row(scratch, QUAT + 2), row(scratch, QUAT + 3)
+    x2, y2, z2 = x + x, y + y, z + z
+    one = splat8(np.float32(1))
+    return (
+        (one - y * y2 - z * z2, x * y2 - w * z2, x * z2 + w * y2),
+        (x * y2 + w * z2, one - x * x2 - z * z2, y * z2 - w * x2),
+        (x * z2 - w * y2, y * z2 + w * x2, one - x * x2 - y * y2),
+    )
+
+
+@inlined
+def turned(w: tuple, m: tuple) -> tuple:
+    """One row of V = W R: the row w of W times the rows m of R."""
+    return (
+        fma(m[0][0], w[0], fma(m[1][0], w[1], m[2][0] * w[2])),
+        fma(m[0][1], w[0], fma(m[1][1], w[1], m[2][1] * w[2])),
+        fma(m[0][2], w[0], fma(m[1][2], w[1], m[2][2] * w[2])),
+    )
+
+
+@inlined
+def shape_slopes(scratch: np.ndarray, px: tuple, py: tuple) -> tuple:
+    """dL/dcentre (x, y) and twice the symmetric dL/dSigma (xx, xy, yy)."""
+    xx, xy, yy = dot3(px, px), dot3(px, py), dot3(py, py)
+    m0, m1, m2 = px[0] * py[1] - px[1] * py[0], px[0] * py[2] - px[2] * py[0], px[1] * py[2] - px[2] * py[1]
+    det = fma(m0, m0, fma(m1, m1, m2 * m2)) + (xx + yy) * DILATION + DILATION * DILATION
+    scale = np.float32(1) / det
+    a, b, c = (yy + DILATION) * scale, splat8(np.float32(0)) - xy * scale, (xx + DILATION) * scale
+    mx, my = row(scratch, SUMS + 1), row(scratch, SUMS + 2)
+    mxx, mxy, myy = row(scratch, SUMS + 3), row(scratch, SUMS + 4), row(scratch, SUMS + 5)
     p, q = a * mxx + b * mxy, a * mxy + b * myy
     r, s = b * mxx + c * mxy, b * mxy + c * myy
     return (a * mx + b * my, b * mx + c * my), (p * a + q * b, p * b + q * c, r * b + s * c)
 
 
 @inlined
-def write_quaternion(out: np.ndarray, i: int, quaternion: tuple, g: tuple) -> None:
-    """Gradient of the rotation matrix, g[row][column], to the quaternion before it was normalised."""
-    inverse, (w, x, y, z) = quaternion
-    gw = 2 * (x * (g[2][1] - g[1][2]) + y * (g[0][2] - g[2][0]) + z * (g[1][0] - g[0][1]))
-    gx = 2 * (w * (g[2][1] - g[1][2]) + y * (g[0][1] + g[1][0]) + z * (g[0][2] + g[2][0])
-              - 2 * x * (g[1][1] + g[2][2]))  # fmt: skip
-    gy = 2 * (w * (g[0][2] - g[2][0]) + x * (g[0][1] + g[1][0]) + z * (g[1][2] + g[2][1])
-              - 2 * y * (g[0][0] + g[2][2]))  # fmt: skip
-    gz = 2 * (w * (g[1][0] - g[0][1]) + x * (g[0][2] + g[2][0]) + y * (g[1][2] + g[2][1])
-              - 2 * z * (g[0][0] + g[1][1]))  # fmt: skip
+def position_slopes(lens: Lens, point: tuple, uv: tuple, vz: tuple, slopes: tuple) -> tuple:
+    """dL/dt, the camera coordinates, from dL/dcentre, dL/dV's upper rows and sum gP P."""
+    u0, v0, inverse = uv
+    centre, gx, gy, depth, stretch = slopes
+    gu, gv = centre[0] * lens.focal[0], centre[1] * lens.focal[1]
+    zero = splat8(np.float32(0))
+    free_u = (u0 >= lens.limits[0]) & (u0 <= lens.limits[1])
+    free_v = (v0 >= lens.limits[2]) & (v0 <= lens.limits[3])
+    gu = (gu - select8(free_u, dot3(gx, vz), zero)) * inverse
+    gv = (gv - select8(free_v, dot3(gy, vz), zero)) * inverse
+    return gu, gv, depth - stretch * inverse - gu * u0 - gv * v0
+
+
+@inlined
+def quaternion_slopes(scratch: np.ndarray, g: tuple) -> None:
+    """Rows ALONG + 3..6: gradient g of R to the unit quaternion, its part along the quaternion taken off."""
+    w, x, y, z = row(scratch, QUAT), row(scratch, QUAT + 1), row(scratch, QUAT + 2), row(scratch, QUAT + 3)
+    a, b, c = g[2][1] - g[1][2], g[0][2] - g[2][0], g[1][0] - g[0][1]
+    d, e, f = g[0][1] + g[1][0], g[0][2] + g[2][0], g[1][2] + g[2][1]
+    two = np.float32(2)
+    gw = (x * a + y * b + z * c) * two
+    gx = (w * a + y * d + z * e - x * (g[1][1] + g[2][2]) * two) * two
+    gy = (w * b + x * d + z * f - y * (g[0][0] + g[2][2]) * two) * two
+    gz = (w * c + x * e + y * f - z * (g[0][0] + g[1][1]) * two) * two
     along = w * gw + x * gx + y * gy + z * gz
-    out[i, 0], out[i, 1] = (gw - w * along) * inverse, (gx - x * along) * inverse
-    out[i, 2], out[i, 3] = (gy - y * along) * inverse, (gz - z * along) * inverse
+    for k, value in enumerate((gw - w * along, gx - x * along, gy - y * along, gz - z * along)):
+        store8(scratch, (ALONG + 3 + k) * LANES, value)
 
 
 @inlined
-def splat_gradient(lens: Lens, cloud: Cloud, i: int, total: np.ndarray, out: Gradients, job: int) -> None:
-    """All gradients of splat i from its summed row."""
-    point = camera_point(lens, cloud.means, i)
-    quaternion, (u0, v0, u, v), (vx, vy, vz), (px, py), sigma = footprint(lens, cloud, i, point)
-    centre, (hxx, hxy, hyy) = shape_gradient(total, sigma)
-    z = point[2]
-    jx, jy = lens.focal[0] / z, lens.focal[1] / z
-    gz, gu, gv = total[MOMENTS], lens.focal[0] * centre[0], lens.focal[1] * centre[1]
-    gm = np.empty((3, 3))  # gradient of V = W R
+def slopes_of_eight(lens: Lens, scratch: np.ndarray) -> None:
+    """All geometry gradients of the eight splats of a group, into the rows from ALONG and POSE on."""
+    r, t = lens.rotation, lens.translation
+    w0, w1, w2 = (r[0, 0], r[0, 1], r[0, 2]), (r[1, 0], r[1, 1], r[1, 2]), (r[2, 0], r[2, 1], r[2, 2])
+    mean = (row(scratch, MEAN), row(scratch, MEAN + 1), row(scratch, MEAN + 2))
+    m = matrix(scratch)
+    vx, vy, vz = turned(w0, m), turned(w1, m), turned(w2, m)
+    point = (dot3(mean, w0) + t[0], dot3(mean, w1) + t[1], dot3(mean, w2) + t[2])
+    inverse = np.float32(1) / point[2]
+    u0, v0 = point[0] * inverse, point[1] * inverse
+    u, v = clamped(u0, lens.limits[0], lens.limits[1]), clamped(v0, lens.limits[2], lens.limits[3])
+    jx, jy = inverse * lens.focal[0], inverse * lens.focal[1]
+    s = (row(scratch, SCALE), row(scratch, SCALE + 1), row(scratch, SCALE + 2))
+    qx = (jx * (vx[0] - u * vz[0]), jx * (vx[1] - u * vz[1]), jx * (vx[2] - u * vz[2]))
+    qy = (jy * (vy[0] - v * vz[0]), jy * (vy[1] - v * vz[1]), jy * (vy[2] - v * vz[2]))
+    px, py = (qx[0] * s[0], qx[1] * s[1], qx[2] * s[2]), (qy[0] * s[0], qy[1] * s[1], qy[2] * s[2])
+    centre, h = shape_slopes(scratch, px, py)
+    gpx = (h[0] * px[0] + h[1] * py[0], h[0] * px[1] + h[1] * py[1], h[0] * px[2] + h[1] * py[2])  # dL/dP
+    gpy = (h[1] * px[0] + h[2] * py[0], h[1] * px[1] + h[2] * py[1], h[1] * px[2] + h[2] * py[2])
     for k in range(3):
-        s = float(cloud.scales[i, k])
-        gpx, gpy = 2 * (hxx * px[k] + hxy * py[k]), 2 * (hxy * px[k] + hyy * py[k])
-        qx, qy = jx * (vx[k] - u * vz[k]), jy * (vy[k] - v * vz[k])
-        out.scales[i, k] = gpx * qx + gpy * qy
-        gm[0, k], gm[1, k] = gpx * jx * s, gpy * jy * s
-        gm[2, k] = -u * gm[0, k] - v * gm[1, k]
-        gz -= (gpx * px[k] + gpy * py[k]) / z
-        if u == u0:
-            gu -= gm[0, k] * vz[k]
-        if v == v0:
-            gv -= gm[1, k] * vz[k]
-    gt = (gu / z, gv / z, gz - (gu * u0 + gv * v0) / z)
-    w = lens.rotation
+        store8(scratch, (ALONG + 7 + k) * LANES, pick(gpx, k) * pick(qx, k) + pick(gpy, k) * pick(qy, k))
+    gx = (gpx[0] * jx * s[0], gpx[1] * jx * s[1], gpx[2] * jx * s[2])
+    gy = (gpy[0] * jy * s[0], gpy[1] * jy * s[1], gpy[2] * jy * s[2])
+    zero = splat8(np.float32(0))
+    gz = (zero - u * gx[0] - v * gy[0], zero - u * gx[1] - v * gy[1], zero - u * gx[2] - v * gy[2])
+    stretch = dot3(gpx, px) + dot3(gpy, py)
+    gt = position_slopes(lens, point, (u0, v0, inverse), vz, (centre, gx, gy, row(scratch, SUMS + 6), stretch))
     for k in range(3):
-        out.means[i, k] = w[0, k] * gt[0] + w[1, k] * gt[1] + w[2, k] * gt[2]
-    write_pose(out.pose[job], w, gt, gm, (cloud.means[i], (vx, vy, vz)))
-    rotation = (
-        (w[0, 0] * gm[0, 0] + w[1, 0] * gm[1, 0] + w[2, 0] * gm[2, 0],
-         w[0, 0] * gm[0, 1] + w[1, 0] * gm[1, 1] + w[2, 0] * gm[2, 1],
-         w[0, 0] * gm[0, 2] + w[1, 0] * gm[1, 2] + w[2, 0] * gm[2, 2]),
-        (w[0, 1] * gm[0, 0] + w[1, 1] * gm[1, 0] + w[2, 1] * gm[2, 0],
-         w[0, 1] * gm[0, 1] + w[1, 1] * gm[1, 1] + w[2, 1] * gm[2, 1],
-         w[0, 1] * gm[0, 2] + w[1, 1] * gm[1, 2] + w[2, 1] * gm[2, 2]),
-        (w[0, 2] * gm[0, 0] + w[1, 2] * gm[1, 0] + w[2, 2] * gm[2, 0],
-         w[0, 2] * gm[0, 1] + w[1, 2] * gm[1, 1] + w[2, 2] * gm[2, 1],
-         w[0, 2] * gm[0, 2] + w[1, 2] * gm[1, 2] + w[2, 2] * gm[2, 2]),
-    )  # fmt: skip
-    write_quaternion(out.quats, i, quaternion, rotation)
+        store8(scratch, (ALONG + k) * LANES, gt[0] * r[0, k] + gt[1] * r[1, k] + gt[2] * r[2, k])
+    turn_slopes(scratch, (w0, w1, w2), m, (gx, gy, gz), (gt, mean))
 
 
 @inlined
-def write_pose(out: np.ndarray, w: np.ndarray, gt: tuple, gm: np.ndarray, splat: tuple) -> None:
-    """Add one splat's part to the pose gradient (3, 4): dL/dW = gt x' + gV R', dL/dt0 = gt.
+def clamped(value: Any, low: float, high: float) -> object:
+    """Per lane, the nearest value within low..high."""
+    return select8(value < low, low, select8(value > high, high, value))
 
-    R = W' V, so (gV R')_ij = sum_k gV_ik (W' V)_jk.
-    """
-    mean, v = splat
-    for j in range(3):
-        for k in range(3):
-            r = w[0, j] * v[0][k] + w[1, j] * v[1][k] + w[2, j] * v[2][k]
-            for i in range(3):
-                out[i, j] += gm[i, k] * r
-        for i in range(3):
-            out[i, j] += gt[i] * mean[j]
-    for i in range(3):
-        out[i, 3] += gt[i]
+
+@inlined
+def pick(vector: tuple, k: int) -> object:
+    """Element k of three."""
+    return vector[0] if k == 0 else (vector[1] if k == 1 else vector[2])
+
+
+@inlined
+def turn_slopes(scratch: np.ndarray, w: tuple, m: tuple, g: tuple, splat: tuple) -> None:
+    """From g = dL/dV, V = W R: dL/dR = W' g to the quaternion; pose rows dL/dW = gt mean' + g R', dL/dt0 = gt."""
+    quaternion_slopes(scratch, (back(w, 0, g), back(w, 1, g), back(w, 2, g)))
+    gt, mean = splat
+    for i, (gi, gti) in enumerate(((g[0], gt[0]), (g[1], gt[1]), (g[2], gt[2]))):
+        store8(scratch, (POSE + 4 * i) * LANES, gti * mean[0] + dot3(gi, m[0]))
+        store8(scratch, (POSE + 4 * i + 1) * LANES, gti * mean[1] + dot3(gi, m[1]))
+        store8(scratch, (POSE + 4 * i + 2) * LANES, gti * mean[2] + dot3(gi, m[2]))
+        store8(scratch, (POSE + 4 * i + 3) * LANES, gti)
+
+
+@inlined
+def back(w: tuple, j: int, g: tuple) -> tuple:
+    """Row j of W' g."""
+    a, b, c = w[0][j], w[1][j], w[2][j]
+    return (
+        g[0][0] * a + g[1][0] * b + g[2][0] * c,
+        g[0][1] * a + g[1][1] * b + g[2][1] * c,
+        g[0][2] * a + g[1][2] * b + g[2][2] * c,
+    )
+
+
+@inlined
+def hand_out(scratch: np.ndarray, lane: int, i: int, inverse: float, out: Gradients, job: int) -> None:
+    """Add one lane's results to splat i and to the job's pose."""
+    for k in range(3):
+        out.means[i, k] += scratch[(ALONG + k) * LANES + lane]
+        out.scales[i, k] += scratch[(ALONG + 7 + k) * LANES + lane]
+    for k in range(4):
+        out.quats[i, k] += scratch[(ALONG + 3 + k) * LANES + lane] * inverse
+    for k in range(12 if out.pose.shape[0] > 0 else 0):
+        out.pose[job, k] += scratch[(POSE + k) * LANES + lane]
 
 
 @kernel
 def gather_gradients(job: int, span: tuple, bins: Bins, scene: tuple, sums: Sums, out: Gradients) -> None:
-    """Gradients of the splats at ranks span[0]..span[1]-1; scene = (lens, cloud). `out` is zero on entry."""
+    """Add the gradients of the splats at ranks span[0]..span[1]-1; scene = (lens, cloud)."""
     lens, cloud = scene
-    total = np.empty(sums.row)
+    scratch = np.zeros(SCRATCH, np.float32)
+    scratch[(MEAN + 2) * LANES : (MEAN + 3) * LANES] = 1  # lanes never filled stay harmless
+    index, inverse = np.empty(LANES, np.int64), np.empty(LANES)
+    filled = 0
     for rank in range(span[0], span[1]):
-        if not add_rows(sums, bins.first_slot[rank], bins.first_slot[rank + 1], total):
-            continue
-        i = bins.order[rank]
-        out.opacities[i] = total[0] / float(cloud.opacities[i])
-        for k in range(1, out.channels.shape[1]):
-            out.channels[i, k] = total[MOMENTS + k]
-        splat_gradient(lens, cloud, i, total, out, job)
+        if add_rows(sums, bins.first_slot[rank], bins.first_slot[rank + 1], scratch):
+            i = bins.order[rank]
+            out.opacities[i] += scratch[TOTAL] / cloud.opacities[i]
+            for k in range(1, sums.columns.size):
+                if sums.columns[k] >= 0:
+                    out.features[i, sums.columns[k]] = scratch[TOTAL + MOMENTS + k]
+            q = cloud.quats
+            a, b, c, d = float(q[i, 0]), float(q[i, 1]), float(q[i, 2]), float(q[i, 3])
+            index[filled], inverse[filled] = i, 1.0 / math.sqrt(a * a + b * b + c * c + d * d)
+            collect(scratch, filled, cloud, i, inverse[filled])
+            filled += 1
+        if filled == LANES or (rank == span[1] - 1 and filled > 0):
+            slopes_of_eight(lens, scratch)
+            for lane in range(filled):
+                hand_out(scratch, lane, index[lane], inverse[lane], out, job)
+            filled = 0

@@ -7,7 +7,6 @@ same bins; their contributions to the geometry's gradient add up.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -124,21 +123,28 @@ def draw(
     return drawn
 
 
-def backward(drawn: Drawn, upstream: Rendering[np.ndarray]) -> tuple[Splats[np.ndarray], np.ndarray]:
-    """Gradients of sum(upstream * rendering): for the splats (float32) and for the pose (4, 4) float64."""
+def backward(
+    drawn: Drawn, upstream: Rendering[np.ndarray], *, with_pose: bool = False
+) -> tuple[Splats[np.ndarray], np.ndarray]:
+    """Gradients of sum(upstream * rendering): for the splats (float32) and for the pose (4, 4) float64.
+
+    The pose's gradient is 0 unless `with_pose`.
+    """
     count = len(drawn.cloud.means)
-    totals: list[Any] = [np.zeros(s, np.float32) for s in ((count, 3), (count, 4), (count, 3), (count,))]
-    features = np.zeros((count, drawn.features), np.float32)
-    pose = np.zeros((4, 4))
+    jobs = -(-len(drawn.bins.order) // SPLATS_PER_JOB)
+    out = Gradients(
+        np.zeros((count, 3), np.float32),
+        np.zeros((count, 4), np.float32),
+        np.zeros((count, 3), np.float32),
+        np.zeros(count, np.float32),
+        np.zeros((count, drawn.features), np.float32),
+        np.zeros((jobs if with_pose else 0, 12)),
+    )
     for index, one in enumerate(drawn.passes):
-        gradients = _pass_gradients(drawn, one, upstream, first=index == 0)
-        for total, part in zip(totals, gradients[:4], strict=True):
-            total += part
-        for columns, slots in one.layout.columns():
-            features[:, columns] = gradients.channels[:, slots]
-        pose[:3] += gradients.pose.sum(axis=0)
-    means, quats, scales, opacities = totals
-    return Splats(means, quats, scales, opacities, features), pose
+        _add_gradients(drawn, one, upstream, out, first=index == 0)
+    pose = np.zeros((4, 4))
+    pose[:3] = out.pose.sum(axis=0).reshape(3, 4)
+    return Splats(out.means, out.quats, out.scales, out.opacities, out.features), pose
 
 
 def layouts(features: int, detached: int) -> list[Layout]:
@@ -177,35 +183,33 @@ def _draw_pass(drawn: Drawn, layout: Layout, ellipses: Ellipses, features: np.nd
     return Pass(layout, drawing, planes)
 
 
-def _pass_gradients(drawn: Drawn, one: Pass, upstream: Rendering[np.ndarray], *, first: bool) -> Gradients:
-    """Gradients of one pass; depth and alpha count in the first pass only."""
-    bins, slots, count = drawn.bins, one.layout.slots, len(drawn.cloud.means)
+def _add_gradients(
+    drawn: Drawn, one: Pass, upstream: Rendering[np.ndarray], out: Gradients, *, first: bool
+) -> None:  # fmt: skip
+    """Add the gradients of one pass to `out`; depth and alpha count in the first pass only."""
+    bins, layout = drawn.bins, one.layout
     height, width = drawn.lens.height, drawn.lens.width
     planes = np.zeros(one.planes.shape, np.float32)
     if first:
         planes[0, :height, :width] = upstream.alpha
         planes[1, :height, :width] = upstream.depth
-    for columns, places in one.layout.columns():
-        part = np.moveaxis(np.asarray(upstream.features)[:, :, columns], 2, 0)
-        planes[1 + places.start : 1 + places.stop, :height, :width] = part
-    row = -(-(MOMENTS + slots) // 8) * 8
+    features = np.moveaxis(np.asarray(upstream.features), 2, 0)
+    columns_of = np.full(layout.slots, -1)
+    for columns, places in layout.columns():
+        planes[1 + places.start : 1 + places.stop, :height, :width] = features[columns]
+        columns_of[places] = np.arange(columns.start, columns.stop)
+    row = -(-(MOMENTS + layout.slots) // 8) * 8
     slopes = Slopes(planes.ravel(), np.empty(len(bins.rank) * row, np.float32), row)
     tiles = bins.tiles_x * bins.tiles_y
     run_ranges(lambda a, b: slope_tiles(a, b, one.drawing, bins, slopes), tiles, _tile_chunk(bins))
     ranks = len(bins.order)
-    jobs = -(-ranks // SPLATS_PER_JOB)
-    out = Gradients(
-        np.zeros((count, 3), np.float32), np.zeros((count, 4), np.float32), np.zeros((count, 3), np.float32),
-        np.zeros(count, np.float32), np.zeros((count, slots), np.float32), np.zeros((jobs, 3, 4)),
-    )  # fmt: skip
-    sums, scene = Sums(slopes.rows, row, one.drawing.hits), (drawn.lens, drawn.cloud)
+    sums, scene = Sums(slopes.rows, row, one.drawing.hits, columns_of), (drawn.lens, drawn.cloud)
 
     def job(index: int) -> None:
         span = (index * SPLATS_PER_JOB, min((index + 1) * SPLATS_PER_JOB, ranks))
         gather_gradients(index, span, bins, scene, sums, out)
 
-    run_jobs(job, jobs)
-    return out
+    run_jobs(job, -(-ranks // SPLATS_PER_JOB))
 
 
 def _tile_chunk(bins: Bins) -> int:
