@@ -199,6 +199,7 @@ def _stop_on_signal(run: Run) -> Iterator[Any]:
             raise KeyboardInterrupt
         pressed.append(number)
         run.stop()
+        say("\nEnding after the present step and keeping what stands; once more ends at once.")
 
     previous = {number: signal.signal(number, handler) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
