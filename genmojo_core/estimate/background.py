@@ -32,11 +32,26 @@ def make_plate(
             free[t].astype(np.uint8), where[..., 0], where[..., 1], cv2.INTER_NEAREST, borderMode=cv2.BORDER_CONSTANT
         )
         ok = np.asarray(inside) > 0
-        stack[i][ok] = color[ok]
+        stack[i][ok] = color[ok] * light_gain(frames[reference], np.asarray(color), ok & free[reference])
     seen = np.asarray(np.isfinite(stack[..., 0]).any(axis=0))
     median = masked_median(stack)
-    plate = np.where(seen[..., None], median, 0).round().astype(np.uint8)
+    plate = np.where(seen[..., None], median, 0).round().clip(0, 255).astype(np.uint8)
     return paint(plate, ~seen), seen
+
+
+def light_gain(reference: np.ndarray, image: np.ndarray, shared: np.ndarray) -> np.ndarray:  # (3,)
+    """Factor per channel that brings an image's light to the reference's (H, W, 3): the median ratio on shared pixels.
+
+    Ratios are taken where neither is nearly black or clipped; gains within 2 % of 1 count as 1, so that a still light
+    leaves pixels exact.
+    """
+    gain = np.ones(3, np.float32)
+    for c in range(3):
+        a, b = reference[..., c][shared].astype(np.float32), image[..., c][shared].astype(np.float32)
+        usable = (a > 10) & (b > 10) & (a < 245) & (b < 245)
+        if usable.sum() >= 100:
+            gain[c] = np.clip(np.median(a[usable] / b[usable]), 0.25, 4.0)
+    return np.where(np.abs(gain - 1) < 0.02, np.float32(1), gain)
 
 
 def masked_median(stack: np.ndarray) -> np.ndarray:  # (N, H, W, ...) float32 with NaN where unknown

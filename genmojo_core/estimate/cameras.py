@@ -20,11 +20,11 @@ from genmojo_core.estimate.bundle import Bundle, adjust, cost, errors, world_poi
 FOVY = 49.1  # degrees; METHOD.md section 2, used where nothing better is known
 _STILL_SHARE = 0.004  # of the short side: a background that goes less far over the whole clip means a still camera
 _FEWEST_POINTS = 12  # of a frame
-_CLEARLY_BETTER = 0.8  # share of the turning camera's error that a moving one must stay under
+_CLEARLY_BETTER = 0.6  # share of the turning camera's error that a moving one must stay under
 _KNOWN, _GUESSED = 0.03, 0.7  # deviation of log depth where depth is given, where it is guessed
 _FOCAL_DOUBT = 0.3
 _POINT_ERROR = 1.5  # pixels
-_FOCAL_GAIN = 0.9  # share of the error that a free focal length must stay under to be believed
+_FOCAL_GAIN = 0.8  # share of the error that a free focal length must stay under to be believed
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,15 @@ def test_the_plate_behind_a_moving_square_is_exact():
     assert np.abs(color.astype(int) - background).max() <= 1
 
 
+def test_a_fading_light_leaves_the_plate_as_bright_as_its_frame():
+    frames, labels, background = squares(count=10, step=5)
+    light = np.linspace(1.0, 0.4, 10)[:, None, None, None]
+    dim = (background * 0.8 + 20).astype(np.uint8)
+    faded = np.where(labels[..., None] > 0, frames, (dim * light).astype(np.uint8)).astype(np.uint8)
+    color, seen = make_plate(faded, labels == 0, rig([np.eye(4)] * 10), np.full((96, 96), 3.0, np.float32))
+    assert seen.all() and np.abs(color.astype(int) - dim).mean() < 3
+
+
 def test_never_seen_pixels_are_painted_and_marked():
     frames, labels, background = squares(count=4, step=0)
     color, seen = make_plate(frames, labels == 0, rig([np.eye(4)] * 4), np.full((96, 96), 3.0, np.float32))
