@@ -15,12 +15,12 @@ class LossWeights:
 
     rgb: float = 1.0  # L1 + SSIM over the frame, foreground and background balanced
     ssim: float = 0.2  # share of SSIM in the RGB term
-    alpha: float = 0.5  # coverage against the union of masks, balanced
-    labels: float = 0.2  # instance composition against the masks
-    depth: float = 0.3  # relative depth error inside the masks
+    alpha: float = 0.3  # coverage against the union of masks, balanced
+    labels: float = 0.1  # instance composition against the masks
+    depth: float = 0.2  # relative depth error inside the masks
     depth_order: float = 0.05  # hinge between overlapping objects' depths
-    flow: float = 0.5  # L1 of splatted flow, in units of the image diagonal x 100
-    tracks: float = 1.0  # robust distance of carried points to their tracks
+    flow: float = 0.05  # L1 of splatted flow, in units of the image diagonal x 100
+    tracks: float = 0.5  # robust distance of carried points to their tracks
     rigidity: float = 1.0  # neighbours move rigidly (corrected rotation)
     rotation: float = 0.1  # neighbours turn alike
     local_scale: float = 0.5  # neighbours change size alike
