@@ -12,6 +12,7 @@ import argparse
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -81,7 +82,11 @@ class Bench:
         start = time.monotonic()
         with open(out, "wb") as stdout, open(err, "wb") as stderr:
             child = subprocess.Popen(argv, stdout=stdout, stderr=stderr, cwd=folder or self.work, env=environment)
-            _, status, usage = os.wait4(child.pid, 0)
+            try:
+                _, status, usage = os.wait4(child.pid, 0)
+            except BaseException:
+                child.kill()
+                raise
             child.returncode = os.waitstatus_to_exitcode(status)
         text = out.read_text(errors="replace").strip()
         result = json.loads(text) if text.startswith("{") else {}
@@ -361,6 +366,7 @@ def main() -> int:
     sys.path.insert(0, str(ROOT))
     bench = Bench(args.work.resolve(), args.data.resolve())
     (bench.work / "results").mkdir(parents=True, exist_ok=True)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     for key in wanted:
         measure(bench, key, args.again)
     report(bench)
