@@ -335,7 +335,7 @@ def sum_rows(typingctx: Any, array: types.Type, index: types.Type) -> Any:
 
 @instruction
 def prefetch(typingctx: Any, array: types.Type, index: types.Type) -> Any:
-    """Ask for the cache line of element `index` of a flat float32 array."""
+    """Ask for the cache line of element `index` of an array, counted through all its axes."""
 
     def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         data = context.make_array(signature.args[0])(context, builder, arguments[0]).data

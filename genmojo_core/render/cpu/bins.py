@@ -14,12 +14,14 @@ import numpy as np
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.kernels.cache import inlined, kernel
+from genmojo_core.kernels.simd import prefetch
 from genmojo_core.render.cpu.project import GEOMETRY, Ellipses, Lens
 
 TILE = 16  # pixels
 SHIFT = 4  # TILE as a power of two
 ENTRY_LIMIT = 2**24  # entries of one view: 1 GiB of gradient rows
 RADIX_BITS = 11
+AHEAD = 8  # splats
 
 
 class Bins(NamedTuple):
@@ -61,21 +63,22 @@ def depth_order(depth: np.ndarray, box: np.ndarray) -> np.ndarray:
 
 
 @kernel
-def gather(start: int, stop: int, order: np.ndarray, ellipses: Ellipses, channels: np.ndarray, out: tuple) -> None:
-    """Copy ranks start..stop-1 into depth order: records (M, 6 + slots) float32 and boxes (M, 4) int32.
+def gather(start: int, stop: int, order: np.ndarray, ellipses: Ellipses, source: tuple, records: np.ndarray) -> None:
+    """Copy ranks start..stop-1 into depth order: records (M, 6 + slots) float32.
 
-    Slot 0 holds the depth; `channels` (N, slots - 1) float32 the rest.
+    Slot 0 holds the depth. source = features (N, C) float32, and the feature (slots,) int64 of each slot, -1: zero.
     """
-    records, box = out
+    features, columns = source
     for rank in range(start, stop):
+        coming = order[min(rank + AHEAD, stop - 1)]
+        prefetch(ellipses.geometry, GEOMETRY * coming)
+        prefetch(features, features.shape[1] * coming)
         i = order[rank]
         for k in range(GEOMETRY):
             records[rank, k] = ellipses.geometry[i, k]
         records[rank, GEOMETRY] = ellipses.depth[i]
-        for k in range(channels.shape[1]):
-            records[rank, GEOMETRY + 1 + k] = channels[i, k]
-        for k in range(4):
-            box[rank, k] = ellipses.box[i, k]
+        for k in range(1, columns.size):
+            records[rank, GEOMETRY + k] = features[i, columns[k]] if columns[k] >= 0 else np.float32(0)
 
 
 @inlined

@@ -19,13 +19,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
-from genmojo_core.kernels.simd import fma, load8, select8, splat8, store8
+from genmojo_core.kernels.simd import fma, load8, prefetch, select8, splat8, store8
 from genmojo_core.render.cpu.bins import Bins
 from genmojo_core.render.cpu.project import Cloud, Lens
 from genmojo_core.render.rasterizer import DILATION
 
 LANES = 8
 MOMENTS = 6
+AHEAD = 8  # splats
 # Rows of eight lanes in a group's scratch.
 MEAN, QUAT, SCALE, SUMS = 0, 3, 7, 10  # 3, 4 (unit), 3 and 7 rows of input
 ALONG, POSE = 17, 28  # results: mean 3, quaternion 4 (before the normalisation), scales 3, spare; then pose 12
@@ -241,6 +242,18 @@ def hand_out(scratch: np.ndarray, lane: int, i: int, inverse: float, out: Gradie
         out.pose[job, k] += scratch[(POSE + k) * LANES + lane]
 
 
+@inlined
+def fetch(i: int, cloud: Cloud, out: Gradients) -> None:
+    """Ask for the memory of a splat that comes soon: depth order jumps about in it."""
+    prefetch(cloud.means, 3 * i)
+    prefetch(cloud.quats, 4 * i)
+    prefetch(cloud.scales, 3 * i)
+    prefetch(out.means, 3 * i)
+    prefetch(out.quats, 4 * i)
+    prefetch(out.scales, 3 * i)
+    prefetch(out.features, out.features.shape[1] * i)
+
+
 @kernel
 def gather_gradients(job: int, span: tuple, bins: Bins, scene: tuple, sums: Sums, out: Gradients) -> None:
     """Add the gradients of the splats at ranks span[0]..span[1]-1; scene = (lens, cloud)."""
@@ -250,6 +263,7 @@ def gather_gradients(job: int, span: tuple, bins: Bins, scene: tuple, sums: Sums
     index, inverse = np.empty(LANES, np.int64), np.empty(LANES)
     filled = 0
     for rank in range(span[0], span[1]):
+        fetch(bins.order[min(rank + AHEAD, span[1] - 1)], cloud, out)
         if add_rows(sums, bins.first_slot[rank], bins.first_slot[rank + 1], scratch):
             i = bins.order[rank]
             out.opacities[i] += scratch[TOTAL] / cloud.opacities[i]

@@ -53,6 +53,13 @@ class Layout:
                 pairs.append((slice(columns.start, columns.stop), slice(first, first + len(columns))))
         return pairs
 
+    def feature_of_slot(self) -> np.ndarray:
+        """(slots,) int64 column of the features in each slot, -1 for depth and empty slots."""
+        found = np.full(self.slots, -1, np.int64)
+        for columns, places in self.columns():
+            found[places] = np.arange(columns.start, columns.stop)
+        return found
+
 
 @dataclass
 class Pass:
@@ -166,13 +173,9 @@ def _draw_pass(drawn: Drawn, layout: Layout, ellipses: Ellipses, features: np.nd
     """Blend the features of one pass."""
     bins, lens = drawn.bins, drawn.lens
     count, slots = len(bins.order), layout.slots
-    channels = np.zeros((len(features), slots - 1), np.float32)
-    for columns, places in layout.columns():
-        channels[:, places.start - 1 : places.stop - 1] = features[:, columns]
     records = np.empty((count, GEOMETRY + slots), np.float32)
-    run_ranges(
-        lambda a, b: gather(a, b, bins.order, ellipses, channels, (records, bins.box)), count, SPLATS_PER_JOB
-    )  # fmt: skip
+    source = (features, layout.feature_of_slot())
+    run_ranges(lambda a, b: gather(a, b, bins.order, ellipses, source, records), count, SPLATS_PER_JOB)
     planes = np.empty((1 + slots, bins.tiles_y * TILE, bins.tiles_x * TILE), np.float32)
     hits = np.zeros(len(bins.rank), np.uint32)
     drawing = Drawing(
@@ -194,16 +197,14 @@ def _add_gradients(
         planes[0, :height, :width] = upstream.alpha
         planes[1, :height, :width] = upstream.depth
     features = np.moveaxis(np.asarray(upstream.features), 2, 0)
-    columns_of = np.full(layout.slots, -1)
     for columns, places in layout.columns():
         planes[1 + places.start : 1 + places.stop, :height, :width] = features[columns]
-        columns_of[places] = np.arange(columns.start, columns.stop)
     row = -(-(MOMENTS + layout.slots) // 8) * 8
     slopes = Slopes(planes.ravel(), np.empty(len(bins.rank) * row, np.float32), row)
     tiles = bins.tiles_x * bins.tiles_y
     run_ranges(lambda a, b: slope_tiles(a, b, one.drawing, bins, slopes), tiles, _tile_chunk(bins))
     ranks = len(bins.order)
-    sums, scene = Sums(slopes.rows, row, one.drawing.hits, columns_of), (drawn.lens, drawn.cloud)
+    sums, scene = Sums(slopes.rows, row, one.drawing.hits, layout.feature_of_slot()), (drawn.lens, drawn.cloud)
 
     def job(index: int) -> None:
         span = (index * SPLATS_PER_JOB, min((index + 1) * SPLATS_PER_JOB, ranks))
@@ -228,11 +229,11 @@ def _checked(splats: Splats[np.ndarray]) -> tuple[Cloud, np.ndarray]:
     wanted = {"means": (count, 3), "quats": (count, 4), "scales": (count, 3), "opacities": (count,)}
     arrays = []
     for name, shape in wanted.items():
-        array = np.ascontiguousarray(getattr(splats, name), dtype=np.float32)
+        array = np.require(getattr(splats, name), np.float32, ["C", "W"])  # writable: kernels know one kind of array
         if array.shape != shape:
             raise GenmojoError("schema", f"{name} has shape {array.shape}, expected {shape}", "rasteriser")
         arrays.append(array)
-    features = np.asarray(splats.features, dtype=np.float32)
+    features = np.require(splats.features, np.float32, ["C", "W"])
     if features.ndim != 2 or len(features) != count:
         raise GenmojoError("schema", f"features have shape {features.shape}, expected ({count}, C)", "rasteriser")
     return Cloud(*arrays), features
