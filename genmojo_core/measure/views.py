@@ -15,6 +15,7 @@ from genmojo_core.store.scene_file import BakedScene
 
 ALPHA_FOR_DEPTH = 1e-4  # below this coverage a pixel has no depth (and no flow)
 WHITE = (1.0, 1.0, 1.0)
+BLACK = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,8 @@ class Picture:
         depth: (H, W) z in scene units, alpha-normalised; 0 where alpha < 1e-4.
         labels: (H, W, K) premultiplied share of every object; sums to alpha.
         flow: (H, W, 2) pixels to the next frame, alpha-normalised, or None.
+        backdrop: what lies behind by default: white behind objects alone, black behind a scene with its background,
+            as while it was optimised.
     """
 
     color: np.ndarray
@@ -34,10 +37,12 @@ class Picture:
     depth: np.ndarray
     labels: np.ndarray
     flow: np.ndarray | None = None
+    backdrop: tuple[float, float, float] = WHITE
 
-    def on(self, backdrop: tuple[float, float, float] | np.ndarray = WHITE) -> np.ndarray:  # (H, W, 3) float32 0..1
-        """The colour over a backdrop (one colour or an (H, W, 3) image), clamped."""
-        rest = (1.0 - self.alpha)[..., None] * np.asarray(backdrop, np.float32)
+    def on(self, backdrop: tuple[float, float, float] | np.ndarray | None = None) -> np.ndarray:  # (H, W, 3) float32 0..1
+        """The colour over a backdrop (one colour or an (H, W, 3) image; None: the picture's own), clamped."""
+        behind = self.backdrop if backdrop is None else backdrop
+        rest = (1.0 - self.alpha)[..., None] * np.asarray(behind, np.float32)
         return np.clip(self.color + rest, 0.0, 1.0)
 
     def straight_rgba(self) -> np.ndarray:  # (H, W, 4) uint8
@@ -98,7 +103,8 @@ def render_frame(scene: BakedScene, t: int, view: View, look: Look = Look()) -> 
     if look.flow_to is not None:
         flow = np.where(seen[..., None], drawn.features[..., count:] / share[..., None], 0)
     depth = np.where(seen, drawn.depth / share, 0.0).astype(np.float32)
-    return Picture(drawn.features[..., :3], drawn.alpha, depth, drawn.features[..., 3:count], flow)
+    backdrop = BLACK if background[owner[keep]].any() else WHITE
+    return Picture(drawn.features[..., :3], drawn.alpha, depth, drawn.features[..., 3:count], flow, backdrop)
 
 
 def orbit_target(scene: BakedScene) -> np.ndarray:  # (3,) world
