@@ -302,3 +302,13 @@ def _digest(scene: BakedScene) -> tuple:
     rest = [v for k, v in vars(scene).items() if k in ("objects", "config", "metrics", "curve", "source_names", "fps")]
     return (arrays, repr(rest), scene.predicted.xy.tobytes(), scene.cameras.K.tobytes(), scene.world_up.tobytes(),
             scene.run_uuid, scene.generator, scene.pixel_aspect, scene.created_utc)  # fmt: skip
+
+
+def test_the_dilation_comes_back_and_scales_with_the_picture(tmp_path) -> None:
+    scene = small_scene()
+    made_at_half = replace(scene, cameras=replace(scene.cameras, dilation=1.2))
+    scene_hdf5.write(made_at_half, tmp_path / "a.h5")
+    back = scene_hdf5.read(tmp_path / "a.h5").cameras
+    assert back.dilation == 1.2
+    width, height = back.size
+    assert back.view(0).resized(width // 2, height // 2).dilation == pytest.approx(0.3)
