@@ -17,7 +17,8 @@ from genmojo_core.optimise.bend import Bend, carried
 from genmojo_core.optimise.motion_solver import Found, ObjectSolver
 from genmojo_core.optimise.poses import Path, camera_centre, project, rays
 from genmojo_core.optimise.surfaces import ObjectSurfaces, Patch, object_surfaces
-from genmojo_core.trackers.stabilise import Matcher, flat_shade
+from genmojo_core.trackers.contours import whole_area
+from genmojo_core.trackers.stabilise import Layer, Matcher, flat_shade
 
 _TRACKS = 600  # points per object
 _NEW_VIEW = 0.5  # radians the object turns before another frame adds points
@@ -62,8 +63,7 @@ def initial_motion(clip: Clip, ref_frames: Sequence[int] | None = None) -> list[
 
     Args:
         clip: with masks, depth and cameras (given or estimated).
-        ref_frames: reference frame per object; by default the first frame in which the object is seen at more than
-            80 % of its largest area.
+        ref_frames: reference frame per object; by default `default_reference`.
 
     Returns one motion per object, in the order of `clip.object_ids`. Raises GenmojoError("schema") if a channel is
     missing.
@@ -73,14 +73,18 @@ def initial_motion(clip: Clip, ref_frames: Sequence[int] | None = None) -> list[
     motions = []
     for k in range(clip.objects):
         surfaces = object_surfaces(clip, k, shade)
-        ref = default_reference(surfaces.area) if ref_frames is None else int(ref_frames[k])
+        ref = default_reference(surfaces.layer) if ref_frames is None else int(ref_frames[k])
         motions.append(_motion(ObjectSolver(surfaces, ref, matcher).run()))
     return motions
 
 
-def default_reference(area: np.ndarray) -> int:  # (T,) visible pixels
-    """The first frame in which the object shows more than 80 % of its largest area."""
-    return int(np.argmax(area > 0.8 * max(float(area.max()), 1.0)))
+def default_reference(layer: Layer) -> int:
+    """The first frame that shows the object nearly as well as any: visible area times the free share of its outline.
+
+    Frames with at least 60 % of the best product count as showing it well.
+    """
+    worth = whole_area(layer)
+    return int(np.argmax(worth >= 0.6 * max(float(worth.max()), 1e-9)))
 
 
 def carry(

@@ -13,8 +13,8 @@ import numpy as np
 
 from genmojo_core.optimise.bend import Bend, carried, fit_bend, no_bend
 from genmojo_core.optimise.poses import Path, Problem, Sight, camera_centre, project, rays, solve, still_path
-from genmojo_core.optimise.surfaces import ObjectSurfaces
-from genmojo_core.trackers.contours import meet, outline_of, spread
+from genmojo_core.optimise.surfaces import ObjectSurfaces, Surface
+from genmojo_core.trackers.contours import meet, outline_of, spread, whole_area
 from genmojo_core.trackers.search import best_shifts
 from genmojo_core.trackers.stabilise import Link, Matcher
 
@@ -23,6 +23,9 @@ _EDGE, _EDGE_REACH = 60, 2  # outline points of a frame; frames between two outl
 _BACK = (1, 2, 4)  # frame distances of the outward pass
 _LINKS = (1, 2, 4, 8)  # frame distances of the joint solve
 _TURN_WEIGHT = 10.0 / np.deg2rad(3.0) ** 2  # against explaining a guessed shape's change by turning
+_ANCHOR = 0.1  # of the size: how far the middle of what is seen may lie from where the centre goes
+_UNSEEN = 0.6  # of the last velocity goes on per frame in which the object is not seen
+_ON_SURFACE = (0.01, 0.05)  # of the size: how far carried points may lie off measured and guessed depth
 _BEND_GAIN = 0.85  # a bend must bring the median residual below this share of the rigid one's
 
 
@@ -54,6 +57,7 @@ class ObjectSolver:
             self.ref = int(np.argmax(self.seen))
         self.outlines = [outline_of(surfaces.layer, t) for t in range(self.frames)]
         self._choose_points()
+        self._choose_anchor()
 
     def run(self) -> Found:
         """Outward pass, then joint solves with fresh links, then the bend."""
@@ -101,13 +105,21 @@ class ObjectSolver:
             self.start[t + 1] = self.start[t] + len(cells) + len(edge)
         self.origin, self.ray, self.depth = np.concatenate(origin), np.concatenate(ray), np.concatenate(depth)
 
+    def _choose_anchor(self) -> None:
+        """Where the centre lies by the visible surface alone, and how far to believe it: little, and only if whole."""
+        whole = whole_area(self.surfaces.layer)
+        share = np.clip(2.0 * whole / max(float(whole.max()), 1e-9) - 1.0, 0.0, 1.0)
+        self.anchor = np.array([np.zeros(3) if s is None else _middle(s) for s in self.surfaces.surfaces])
+        self.anchor_weight = share * self.seen / (_ANCHOR * self.surfaces.size) ** 2
+
     def _problem(self, sights: list[Sight]) -> Problem:
         """The solve with these sights."""
         size, measured = self.surfaces.size, self.surfaces.measured
         return Problem(self.surfaces.cameras, self.origin, self.ray, self.depth, size, tuple(sights),
-                       surface_sigma=0.01 * size if measured else 0.0,
+                       surface_sigma=_ON_SURFACE[0 if measured else 1] * size,
                        depth_sigma=0.0 if measured else 0.15 * size,
-                       turn_weight=0.0 if measured else _TURN_WEIGHT)  # fmt: skip
+                       turn_weight=0.0 if measured else _TURN_WEIGHT,
+                       anchor=self.anchor, anchor_weight=self.anchor_weight)  # fmt: skip
 
     def _points(self, index: np.ndarray) -> np.ndarray:  # (N,) -> (N, 3) world
         """Source points in their own frame."""
@@ -180,7 +192,7 @@ class ObjectSolver:
     def _outward(self) -> Path:
         """Poses one after the other, from the reference frame to both ends."""
         surface = self.surfaces.surfaces[self.ref]
-        centre = np.zeros(3) if surface is None else np.median(surface.points[surface.grid.inside], axis=0)
+        centre = np.zeros(3) if surface is None else _middle(surface)
         path = still_path(self.frames, centre, self.ref)
         for direction in (1, -1):
             done = [self.ref]
@@ -195,9 +207,10 @@ class ObjectSolver:
     def _next(self, path: Path, t: int, direction: int, done: list[int]) -> Path:
         """The path with the pose of frame t found from the frames done before it."""
         rotation, position = _continued(path, t, direction)
+        if not self.seen[t]:  # slower and slower: a motion does not go on for long unseen
+            last = path.position[t - direction]
+            return path.moved(t, path.rotation[t - direction], last + _UNSEEN * (position - last))
         path = path.moved(t, rotation, position)
-        if not self.seen[t]:
-            return path
         sources = [s for s in done if abs(s - t) in _BACK] or done[-1:]
         path = self._best_start(path, sources[-1], t)
         free, known = np.zeros(self.frames, bool), np.zeros(self.frames, bool)
@@ -215,17 +228,25 @@ class ObjectSolver:
             return path
         moved = path.between(s, t, surface.points)
         predicted = project(self.surfaces.cameras, t, moved).astype(np.float32)
-        shifts = best_shifts(self.surfaces.layer, surface.grid, t, predicted)
         pose, k = self.surfaces.cameras.world_to_camera[t], self.surfaces.cameras.K[t]
         z = float(np.median((moved[surface.grid.inside] @ pose[:3, :3].T + pose[:3, 3])[:, 2]))
+        moves = [np.zeros(3), self._onto_mask(moved[surface.grid.inside], t)]
+        for shift in best_shifts(self.surfaces.layer, surface.grid, t, predicted):
+            moves.append(np.array([shift[0] / k[0, 0] * z, shift[1] / k[1, 1] * z, 0.0]) @ pose[:3, :3])
         best, best_score = path, -1.0
-        for shift in [np.zeros(2), *shifts]:
-            move = np.array([shift[0] / k[0, 0] * z, shift[1] / k[1, 1] * z, 0.0]) @ pose[:3, :3]
+        for move in moves:
             tried = path.moved(t, path.rotation[t], path.position[t] + move)
             link = self._link(tried, s, t)
             if link is not None and link.score > best_score:
                 best, best_score = tried, link.score
         return best
+
+    def _onto_mask(self, points: np.ndarray, t: int) -> np.ndarray:  # (N, 3) -> (3,) world
+        """The move that brings the median of predicted points onto the median of the surface of frame t."""
+        surface = self.surfaces.surfaces[t]
+        if surface is None:
+            return np.zeros(3)
+        return _middle(surface) - np.median(points, axis=0)
 
     # --- judgement
 
@@ -250,6 +271,11 @@ class ObjectSolver:
                 residuals.append(np.linalg.norm(seen - sight.xy, axis=1))
         every = np.concatenate(residuals)
         return float(np.median(every)) if len(every) else 0.0
+
+
+def _middle(surface: Surface) -> np.ndarray:  # (3,) world
+    """Median of the visible surface."""
+    return np.median(surface.points[surface.grid.inside], axis=0)
 
 
 def _continued(path: Path, t: int, direction: int) -> tuple[np.ndarray, np.ndarray]:

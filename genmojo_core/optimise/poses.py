@@ -82,9 +82,12 @@ class Problem:
         origin: (M, 3) camera centre of each source point's frame. ray: (M, 3) world ray of depth 1.
         depth: (M,) depth along the ray. size: scene units across the object.
         sights: the matches.
-        pixel_sigma: pixels; robust scale of the matches.
+        pixel_sigma, outline_sigma: pixels; robust scale of the matches of texture and of outlines.
         surface_sigma: scene units; robust scale of the distance to the target's surface (0: do not use it).
         depth_sigma: scene units; how far depths may move (0: they are exact and stay).
+        turn_weight: cost per rad^2 of turning between neighbouring frames.
+        anchor, anchor_weight: (T, 3) world and (T,) per unit^2: where the centre lies by the mask alone, to hold frames
+            together that no match connects; None: nothing is known.
     """
 
     cameras: Cameras
@@ -94,9 +97,12 @@ class Problem:
     size: float
     sights: tuple[Sight, ...]
     pixel_sigma: float = 1.0
+    outline_sigma: float = 2.0
     surface_sigma: float = 0.0
     depth_sigma: float = 0.0
-    turn_weight: float = 0.0  # per rad^2 of turning between neighbouring frames
+    turn_weight: float = 0.0
+    anchor: np.ndarray | None = None
+    anchor_weight: np.ndarray | None = None
 
 
 def still_path(frames: int, centre: np.ndarray, ref: int) -> Path:
@@ -156,6 +162,11 @@ def solve(
         _add_smoothness(normal, right, path, (free, known), slot, problem.size)
         if problem.turn_weight > 0:
             _add_stillness(normal, right, path, (free, known), slot, problem.turn_weight)
+        if problem.anchor is not None and problem.anchor_weight is not None:
+            for t in np.nonzero(free)[0]:
+                place = slice(6 * slot[t] + 3, 6 * slot[t] + 6)
+                normal[place, place] += problem.anchor_weight[t] * np.eye(3)
+                right[place] += problem.anchor_weight[t] * (problem.anchor[t] - path.position[t])
         step, depth_step = shape.eliminate(normal, right, depth - prior)
         depth = depth + depth_step
         path = _stepped(path, step, free, slot)
@@ -234,7 +245,7 @@ def residual_rows(problem: Problem, sight: Sight, world: np.ndarray) -> tuple[np
     rows, errors = image_rows(problem.cameras, sight.target, world, sight.xy)
     if sight.facing is not None:
         across = np.einsum("ni,nij->nj", sight.facing, rows)[:, None]
-        return across, (sight.facing * errors).sum(axis=1, keepdims=True), np.array([2.0 * problem.pixel_sigma])
+        return across, (sight.facing * errors).sum(axis=1, keepdims=True), np.array([problem.outline_sigma])
     if problem.surface_sigma <= 0:
         return rows, errors, np.full(2, problem.pixel_sigma)
     gap = np.einsum("ni,ni->n", sight.normal, sight.surface - world)

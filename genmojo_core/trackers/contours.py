@@ -51,6 +51,17 @@ def outline_of(layer: Layer, t: int) -> Outline | None:
     return Outline(xy, normal, index[label])
 
 
+def whole_area(layer: Layer) -> np.ndarray:  # (T,) float64
+    """Visible pixels of every frame times the share of the rim that touches neither another object nor the border."""
+    area = layer.mask.sum(axis=(1, 2)).astype(np.float64)
+    for t in np.nonzero(area)[0]:
+        mask = np.pad(layer.mask[t], 1).astype(np.uint8)
+        blocked = np.pad(layer.other[t], 1, constant_values=True)
+        around = (cv2.dilate(mask, np.ones((3, 3), np.uint8)) > 0) & (mask == 0)
+        area[t] *= 1.0 - blocked[around].mean()
+    return area
+
+
 def spread(outline: Outline, count: int) -> np.ndarray:
     """Indices of about `count` points of an outline, evenly along its length by angle about its middle."""
     if len(outline.xy) <= count:
