@@ -12,7 +12,7 @@ from gsplat import rasterization
 from torch import Tensor
 
 from genmojo_core.clip.cameras import View
-from genmojo_core.render.rasterizer import DILATION, Rendering, Splats
+from genmojo_core.render.rasterizer import Rendering, Splats
 
 
 def splat(
@@ -58,7 +58,7 @@ def _draw(splats: Splats[Tensor], channels: Tensor, view: View, matrix: Tensor, 
         height=view.height,
         near_plane=view.near,
         far_plane=view.far,
-        eps2d=DILATION,
+        eps2d=view.dilation,
         packed=False,
         render_mode=mode,
     )

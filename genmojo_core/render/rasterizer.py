@@ -1,9 +1,11 @@
 """The one interface of all rasterisers: what goes in, what comes out, which constants hold.
 
-Semantics (METHOD.md section 5, RASTER.md section 1), equal in every backend: EWA projection with 0.3 px^2 dilation and
-a frustum clamp of the Jacobian at 1.3 x the field of view measured from the principal point; pixel centres at +0.5;
-alpha = min(0.99, opacity exp(-q/2)), contributions below 1/255 are cut, blending stops before transmittance would fall
-to 1e-4; splats sorted by camera z once per view, ties by index. Outputs are premultiplied sums over w = alpha T.
+Semantics (METHOD.md section 5, RASTER.md section 1), equal in every backend: EWA projection, dilated by the
+view's `dilation` px^2 (0.3 at the size a scene was optimised at and scaled with the area at others, so that a scene
+looks the same at every size), with a frustum clamp of the Jacobian at 1.3 x the field of view measured from the
+principal point; pixel centres at +0.5; alpha = min(0.99, opacity exp(-q/2)), contributions below 1/255 are cut, and
+blending stops before transmittance would fall to 1e-4; splats sorted by camera z once per view, ties by index. Outputs
+are premultiplied sums over w = alpha T.
 """
 
 from __future__ import annotations
@@ -11,7 +13,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-DILATION = 0.3  # px^2 added to the projected covariance
 ALPHA_MIN = 1.0 / 255.0
 ALPHA_MAX = 0.99
 TRANSMITTANCE_MIN = 1e-4

@@ -13,7 +13,6 @@ from genmojo_core.clip.cameras import View
 from genmojo_core.render.rasterizer import (
     ALPHA_MAX,
     ALPHA_MIN,
-    DILATION,
     FRUSTUM_CLAMP,
     TRANSMITTANCE_MIN,
     Rendering,
@@ -86,7 +85,7 @@ def _covariance(points: Tensor, quats: Tensor, scales: Tensor, view: View, rotat
         dim=1,
     )
     half = jacobian @ rotation @ _matrices(quats) @ torch.diag_embed(scales)
-    return half @ half.transpose(1, 2) + DILATION * torch.eye(2, dtype=torch.float64)
+    return half @ half.transpose(1, 2) + view.dilation * torch.eye(2, dtype=torch.float64)
 
 
 def _matrices(quats: Tensor) -> Tensor:

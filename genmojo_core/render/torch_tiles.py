@@ -14,7 +14,6 @@ from genmojo_core.clip.cameras import View
 from genmojo_core.render.rasterizer import (
     ALPHA_MAX,
     ALPHA_MIN,
-    DILATION,
     FRUSTUM_CLAMP,
     TRANSMITTANCE_MIN,
     Rendering,
@@ -106,4 +105,4 @@ def _covariance(points: Tensor, quats: Tensor, scales: Tensor, view: View, rotat
         torch.stack([2 * (i * k - w * j), 2 * (j * k + w * i), 1 - 2 * (i * i + j * j)], dim=1),
     ]
     half = torch.stack([first, second], dim=1) @ rotation @ torch.stack(turned, dim=1) * scales[:, None, :]
-    return half @ half.transpose(1, 2) + DILATION * torch.eye(2, dtype=points.dtype, device=points.device)
+    return half @ half.transpose(1, 2) + view.dilation * torch.eye(2, dtype=points.dtype, device=points.device)
