@@ -196,7 +196,8 @@ def slope_tiles(start: int, stop: int, drawing: Drawing, bins: Bins, slopes: Slo
     width = GEOMETRY + slots
     stride = (HEADER + slots) * LANES
     scratch = np.empty(STATE + (BLOCKS + 1) * stride, np.float32)  # one block to spare: channel_sums reads over the end
-    scratch[:] = 0
+    for i in range(scratch.size):
+        scratch[i] = 0
     prepare(scratch)
     pitch = bins.tiles_x * TILE
     for tile in range(start, stop):

@@ -37,29 +37,32 @@ class Bins(NamedTuple):
     tiles_y: int
 
 
-@kernel
 def depth_order(depth: np.ndarray, box: np.ndarray) -> np.ndarray:
     """Indices of the splats that are drawn, by rising depth, ties by index: LSD radix sort of the float's bits.
 
     Depths are positive, so their bits as unsigned integers rise with them.
     """
     keys = depth.view(np.uint32)
-    order = np.flatnonzero(box[:, 0] <= box[:, 1])
+    order = np.flatnonzero(box[:, 0] <= box[:, 1]).astype(np.int64)
     other = np.empty_like(order)
-    starts = np.empty((1 << RADIX_BITS) + 1, np.int64)
-    digit_mask = np.uint32((1 << RADIX_BITS) - 1)
     for shift in range(0, 32, RADIX_BITS):
-        starts[:] = 0
-        for i in order:
-            starts[((keys[i] >> np.uint32(shift)) & digit_mask) + 1] += 1
-        for digit in range(1 << RADIX_BITS):
-            starts[digit + 1] += starts[digit]
-        for i in order:
-            place = (keys[i] >> np.uint32(shift)) & digit_mask
-            other[starts[place]] = i
-            starts[place] += 1
+        sort_digit(keys, shift, order, np.zeros((1 << RADIX_BITS) + 1, np.int64), other)
         order, other = other, order
     return order
+
+
+@kernel
+def sort_digit(keys: np.ndarray, shift: int, order: np.ndarray, starts: np.ndarray, out: np.ndarray) -> None:
+    """Copy `order` to `out`, stably sorted by one digit of the keys; starts (digits + 1,) int64, zero on entry."""
+    digit_mask = (1 << RADIX_BITS) - 1
+    for k in range(order.size):
+        starts[((keys[order[k]] >> shift) & digit_mask) + 1] += 1
+    for digit in range(starts.size - 1):
+        starts[digit + 1] += starts[digit]
+    for k in range(order.size):
+        digit = (keys[order[k]] >> shift) & digit_mask
+        out[starts[digit]] = order[k]
+        starts[digit] += 1
 
 
 @kernel
@@ -114,9 +117,8 @@ def count_entries(box: np.ndarray, tiles_x: int, tile_start: np.ndarray) -> None
 
 
 @kernel
-def scatter_entries(bins: Bins) -> None:
-    """Fill rank and slot of every entry, tile by tile in depth order."""
-    following = bins.tile_start.copy()
+def scatter_entries(bins: Bins, following: np.ndarray) -> None:
+    """Fill rank and slot of every entry, tile by tile in depth order; following (T,): a copy of tile_start."""
     for rank in range(bins.box.shape[0]):
         x0, x1, y0, y1 = _tiles(bins.box, rank)
         slot = bins.first_slot[rank]
@@ -150,5 +152,5 @@ def bin_splats(lens: Lens, order: np.ndarray, box: np.ndarray) -> Bins:
     count_entries(box, tiles_x, tile_start)
     rank, slot = np.empty(entries, np.int32), np.empty(entries, np.int32)
     bins = Bins(order, box, first_slot, tile_start, rank, slot, tiles_x, tiles_y)
-    scatter_entries(bins)
+    scatter_entries(bins, tile_start.copy())
     return bins

@@ -172,7 +172,8 @@ def draw_tiles(start: int, stop: int, drawing: Drawing, bins: Bins) -> None:
     pitch = bins.tiles_x * TILE
     for tile in range(start, stop):
         left, top = (tile % bins.tiles_x) * TILE, (tile // bins.tiles_x) * TILE
-        scratch[STATE:] = 0
+        for i in range(STATE, scratch.size):
+            scratch[i] = 0
         for block in range(BLOCKS):
             store8(scratch, STATE + block * (1 + slots) * LANES, splat8(np.float32(1)))
         alive = inside_mask(left, top, drawing.width, drawing.height)

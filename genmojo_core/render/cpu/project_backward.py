@@ -22,6 +22,7 @@ from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.kernels.simd import fma, load8, prefetch, select8, splat8, store8
 from genmojo_core.render.cpu.bins import Bins
 from genmojo_core.render.cpu.project import Cloud, Lens
+from genmojo_core.render.rasterizer import DILATION
 
 LANES = 8
 MOMENTS = 6
@@ -117,14 +118,13 @@ def turned(w: tuple, m: tuple) -> tuple:
 
 
 @inlined
-def shape_slopes(scratch: np.ndarray, px: tuple, py: tuple, dilation: float) -> tuple:
+def shape_slopes(scratch: np.ndarray, px: tuple, py: tuple) -> tuple:
     """dL/dcentre (x, y) and twice the symmetric dL/dSigma (xx, xy, yy)."""
     xx, xy, yy = dot3(px, px), dot3(px, py), dot3(py, py)
     m0, m1, m2 = px[0] * py[1] - px[1] * py[0], px[0] * py[2] - px[2] * py[0], px[1] * py[2] - px[2] * py[1]
-    d = np.float32(dilation)
-    det = fma(m0, m0, fma(m1, m1, m2 * m2)) + (xx + yy) * d + d * d
+    det = fma(m0, m0, fma(m1, m1, m2 * m2)) + (xx + yy) * DILATION + DILATION * DILATION
     scale = np.float32(1) / det
-    a, b, c = (yy + d) * scale, splat8(np.float32(0)) - xy * scale, (xx + d) * scale
+    a, b, c = (yy + DILATION) * scale, splat8(np.float32(0)) - xy * scale, (xx + DILATION) * scale
     mx, my = row(scratch, SUMS + 1), row(scratch, SUMS + 2)
     mxx, mxy, myy = row(scratch, SUMS + 3), row(scratch, SUMS + 4), row(scratch, SUMS + 5)
     p, q = a * mxx + b * mxy, a * mxy + b * myy
@@ -179,7 +179,7 @@ def slopes_of_eight(lens: Lens, scratch: np.ndarray) -> None:
     qx = (jx * (vx[0] - u * vz[0]), jx * (vx[1] - u * vz[1]), jx * (vx[2] - u * vz[2]))
     qy = (jy * (vy[0] - v * vz[0]), jy * (vy[1] - v * vz[1]), jy * (vy[2] - v * vz[2]))
     px, py = (qx[0] * s[0], qx[1] * s[1], qx[2] * s[2]), (qy[0] * s[0], qy[1] * s[1], qy[2] * s[2])
-    centre, h = shape_slopes(scratch, px, py, lens.dilation)
+    centre, h = shape_slopes(scratch, px, py)
     gpx = (h[0] * px[0] + h[1] * py[0], h[0] * px[1] + h[1] * py[1], h[0] * px[2] + h[1] * py[2])  # dL/dP
     gpy = (h[1] * px[0] + h[2] * py[0], h[1] * px[1] + h[2] * py[1], h[1] * px[2] + h[2] * py[2])
     for k in range(3):
@@ -258,9 +258,10 @@ def fetch(i: int, cloud: Cloud, out: Gradients) -> None:
 def gather_gradients(job: int, span: tuple, bins: Bins, scene: tuple, sums: Sums, out: Gradients) -> None:
     """Add the gradients of the splats at ranks span[0]..span[1]-1; scene = (lens, cloud)."""
     lens, cloud = scene
-    scratch = np.zeros(SCRATCH, np.float32)
-    scratch[(MEAN + 2) * LANES : (MEAN + 3) * LANES] = 1  # lanes never filled stay harmless
-    index, inverse = np.empty(LANES, np.int64), np.empty(LANES)
+    scratch = np.empty(SCRATCH, np.float32)
+    for k in range(SCRATCH):
+        scratch[k] = 1  # lanes never filled stay harmless
+    index, inverse = np.empty(LANES, np.int64), np.empty(LANES, np.float32)
     filled = 0
     for rank in range(span[0], span[1]):
         fetch(bins.order[min(rank + AHEAD, span[1] - 1)], cloud, out)
@@ -270,9 +271,10 @@ def gather_gradients(job: int, span: tuple, bins: Bins, scene: tuple, sums: Sums
             for k in range(1, sums.columns.size):
                 if sums.columns[k] >= 0:
                     out.features[i, sums.columns[k]] = scratch[TOTAL + MOMENTS + k]
-            q = cloud.quats
-            a, b, c, d = float(q[i, 0]), float(q[i, 1]), float(q[i, 2]), float(q[i, 3])
-            index[filled], inverse[filled] = i, 1.0 / math.sqrt(a * a + b * b + c * c + d * d)
+            square = 0.0
+            for k in range(4):
+                square += float(cloud.quats[i, k]) * float(cloud.quats[i, k])
+            index[filled], inverse[filled] = i, 1.0 / math.sqrt(square)
             collect(scratch, filled, cloud, i, inverse[filled])
             filled += 1
         if filled == LANES or (rank == span[1] - 1 and filled > 0):

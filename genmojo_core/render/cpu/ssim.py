@@ -35,7 +35,7 @@ def ssim_forward(prediction: np.ndarray, target: np.ndarray) -> tuple[np.ndarray
 
     def job(index: int) -> None:
         b, c = divmod(index, channels)
-        similarity_plane((prediction[b], target[b], out[b]), c, WINDOW, slopes[index])
+        similarity_plane((prediction[b], target[b], out[b]), c, WINDOW, slopes[index].reshape(-1))
 
     run_jobs(job, count * channels)
     return out, slopes
@@ -50,7 +50,7 @@ def ssim_backward(
 
     def job(index: int) -> None:
         b, c = divmod(index, channels)
-        gradient_plane((prediction[b], target[b], upstream[b], out[b]), c, WINDOW, slopes[index])
+        gradient_plane((prediction[b], target[b], upstream[b], out[b]), c, WINDOW, slopes[index].reshape(-1))
 
     run_jobs(job, prediction.shape[0] * channels)
     return out
@@ -123,17 +123,16 @@ def similarity(ring: np.ndarray, row: int, at: int, step: tuple, window: np.ndar
 
 @kernel
 def similarity_plane(pictures: tuple, channel: int, window: np.ndarray, slopes: np.ndarray) -> None:
-    """One colour plane: pictures = prediction, target, out, each (H, W, C); slopes (3, H, W rounded up to 8)."""
+    """One colour plane: pictures = prediction, target, out, each (H, W, C); slopes (3 * H * W rounded up to 8,)."""
     prediction, target, out = pictures
     height, width = prediction.shape[0], prediction.shape[1]
-    wide = slopes.shape[2]
+    wide = -(-width // LANES) * LANES
     x, y, s_row = (
         np.zeros(wide + 2 * LANES, np.float32),
         np.zeros(wide + 2 * LANES, np.float32),
         np.empty(wide, np.float32),
     )
     ring = np.empty(FIELDS * TAPS * wide, np.float32)
-    flat = slopes.reshape(-1)
     plane = height * wide
     for row in range(-RADIUS, height + RADIUS):
         source = reflected(row, height)
@@ -150,9 +149,9 @@ def similarity_plane(pictures: tuple, channel: int, window: np.ndarray, slopes: 
             s, mean, xx, xy = similarity(ring, done % TAPS, at, (TAPS * wide, wide), window)
             store8(s_row, at, s)
             place = done * wide + at
-            store8(flat, place, mean)
-            store8(flat, plane + place, xx)
-            store8(flat, 2 * plane + place, xy)
+            store8(slopes, place, mean)
+            store8(slopes, plane + place, xx)
+            store8(slopes, 2 * plane + place, xy)
         for i in range(width):
             out[done, i, channel] = s_row[i]
 
@@ -170,20 +169,24 @@ def gradient_plane(pictures: tuple, channel: int, window: np.ndarray, slopes: np
     """One colour plane: pictures = prediction, target, upstream, out, each (H, W, C); slopes as kept by forward."""
     prediction, target, upstream, out = pictures
     height, width = prediction.shape[0], prediction.shape[1]
+    wide = -(-width // LANES) * LANES
     long = -(-(width + 2 * RADIUS) // LANES) * LANES  # a row with both margins
     line = np.zeros(long + 3 * LANES, np.float32)
     ring = np.zeros(3 * TAPS * long, np.float32)
     folded = np.empty(long, np.float32)
-    out[:, :, channel] = 0
+    for row in range(height):
+        for i in range(width):
+            out[row, i, channel] = 0
     for row in range(-RADIUS, height + RADIUS):
         newest = row + RADIUS  # the row of the picture that enters the window now
         for f in range(3):
             at = (f * TAPS + newest % TAPS) * long
             if newest >= height:
-                ring[at : at + long] = 0
+                for i in range(long):
+                    ring[at + i] = 0
                 continue
             for i in range(width):
-                line[2 * RADIUS + i] = upstream[newest, i, channel] * slopes[f, newest, i]
+                line[2 * RADIUS + i] = upstream[newest, i, channel] * slopes[(f * height + newest) * wide + i]
             for i in range(0, long, LANES):
                 store8(ring, at + i, blur_row(line, i, window))
         target_row = reflected(row, height)
