@@ -6,6 +6,8 @@ Thresholds are relative (top share of gradients), so they do not depend on a ras
 
 from __future__ import annotations
 
+import math
+
 import torch
 from torch import Tensor
 
@@ -71,7 +73,7 @@ def children(gaussians: Gaussians, rows: Tensor, generator: torch.Generator) -> 
     jitter = torch.randn(len(rows), 3, generator=generator) * sigma.mean(dim=1, keepdim=True) / 3.0
     first = {name: value.clone() for name, value in values.items()}
     first["means"] = torch.where(split[:, None], values["means"] + 0.7 * direction, values["means"] + jitter)
-    shrunk = values["log_scales"] - torch.log(torch.tensor(SPLIT_SHRINK))
+    shrunk = values["log_scales"] - math.log(SPLIT_SHRINK)
     first["log_scales"] = torch.where(split[:, None], shrunk, values["log_scales"])
     second = {name: value[split] for name, value in values.items()}
     second["means"] = (values["means"] - 0.7 * direction)[split]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import torch
@@ -83,7 +84,7 @@ class Objective:
             held_out.append((t, float(squared[cut].sum()), int(cut.sum())))
             inside = target.labels > 0
             if bool(inside.any()):
-                foreground.append((t, float(-10.0 * torch.log10(squared[inside].mean().clamp(min=1e-10)))))
+                foreground.append((t, -10.0 * math.log10(max(float(squared[inside].mean()), 1e-10))))
         if deform:
             for name, value in self._motion_terms(frames, states, generator).items():
                 terms[name] = value
@@ -129,18 +130,20 @@ class Objective:
         names = ("rigidity", "rotation", "local_scale", "delta_scale", "delta_color", "smooth")
         terms = dict.fromkeys(names, zero)
         objects = len(self.scene.objects)
-        for k, model in enumerate(self.scene.objects):
+        for k, (model, near) in enumerate(zip(self.scene.objects, self.neighbours, strict=True)):
             terms["smooth"] = terms["smooth"] + model.placement.smoothness() * self.frames / objects
-            if model.field is None:
+            if model.field is None or near is None:
                 continue
             terms["smooth"] = terms["smooth"] + model.field.smoothness() * self.frames / objects
             rows = torch.randperm(len(model.gaussians), generator=generator)[:SAMPLED_ROWS]
             for t in frames:
                 now, after = states[t][k], states.get(t + 1)
+                if now.deformation is None:
+                    continue
                 share = 1.0 / (objects * len(frames))
-                values = [*scale_terms(now.deformation, self.neighbours[k], rows)]
+                values = [*scale_terms(now.deformation, near, rows)]
                 if after is not None:
-                    values += [*rigidity(now, after[k], self.neighbours[k], rows)]
+                    values += [*rigidity(now, after[k], near, rows)]
                 for name, value in zip(("local_scale", "delta_scale", "rigidity", "rotation"), values, strict=False):
                     terms[name] = terms[name] + share * value
                 if now.deformation.d_dc is not None:

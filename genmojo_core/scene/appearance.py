@@ -9,6 +9,8 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
+from genmojo_core.scene import safemath
+
 
 class FrameGain(nn.Module):
     """rgb_t = rgb * gain_t, with gain 1 in the reference frame's stead of a global scale.
@@ -20,7 +22,7 @@ class FrameGain(nn.Module):
     def __init__(self, frames: int, start: Tensor | None = None) -> None:
         super().__init__()
         gains = torch.ones(frames, 3) if start is None else start.float().clamp(0.05, 20.0)
-        self.log_gain = nn.Parameter(torch.log(gains))
+        self.log_gain = nn.Parameter(safemath.safe_log(gains))
 
     def forward(self, t: int) -> Tensor:
         """(3,) gain of frame t."""

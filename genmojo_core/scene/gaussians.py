@@ -43,7 +43,7 @@ class Gaussians(nn.Module):
         """Isotropic Gaussians: points (N, 3), rgb (N, 3) in 0..1, sigma (N,) in the points' units."""
         quats = torch.zeros(len(points), 4)
         quats[:, 0] = 1.0
-        log_scales = torch.log(sigma.clamp(min=1e-7))[:, None].repeat(1, 3)
+        log_scales = safemath.safe_log(sigma.clamp(min=1e-7), 1e-7)[:, None].repeat(1, 3)
         logits = safemath.logit(torch.full((len(points),), opacity))
         return Gaussians(points, quats, log_scales, logits, (rgb - 0.5) / SH_C0)
 

@@ -47,7 +47,7 @@ def quadtree(image: np.ndarray, mask: np.ndarray, count: int, smallest: int = 1)
     sums = _IntegralSums(image, mask)
     side = max(smallest, int(2 ** np.floor(np.log2(max(1.0, np.sqrt(mask.sum() / count) * 4)))))
     heap: list[tuple[float, int, int, int, int]] = []
-    done = []
+    done: list[tuple[int, int, int, int]] = []
     for top in range(0, height, side):
         for left in range(0, width, side):
             cell = (top, left, min(top + side, height), min(left + side, width))

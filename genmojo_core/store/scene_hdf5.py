@@ -24,7 +24,17 @@ from genmojo_core.store.safe import DAMAGE, MAX_RATIO, RATIO_FROM_BYTES, open_hd
 from genmojo_core.store.scene_file import BakedScene
 
 _CHUNK_ROWS = 16384
-_ATTRIBUTES = ("dilation_px2", "format", "version", "generator", "created_utc", "run_uuid", "complete", "up", "pixel_aspect")
+_ATTRIBUTES = (
+    "dilation_px2",
+    "format",
+    "version",
+    "generator",
+    "created_utc",
+    "run_uuid",
+    "complete",
+    "up",
+    "pixel_aspect",
+)
 
 
 def write(scene: BakedScene, path: str | Path) -> None:

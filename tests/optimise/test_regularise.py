@@ -27,7 +27,10 @@ def test_a_rigid_motion_with_matching_quaternions_costs_nothing(angle: float) ->
     means, quats = cloud()
     rotation = axis_angle_matrix(np.array([0.48, 0.6, 0.64]), angle)
     turn = torch.tensor(matrix_to_quaternion(rotation), dtype=torch.float32)
-    after = state(means @ torch.tensor(rotation.T, dtype=torch.float32) + 2.0, safemath.quaternion_multiply(turn.expand_as(quats), quats))
+    after = state(
+        means @ torch.tensor(rotation.T, dtype=torch.float32) + 2.0,
+        safemath.quaternion_multiply(turn.expand_as(quats), quats),
+    )
     move, spin = rigidity(state(means, quats), after, nearest(means, 15), torch.arange(len(means)))
     assert float(move) < 1e-4
     assert float(spin) < 1e-3

@@ -18,7 +18,7 @@ def tiny_splats() -> Splats:
     means = torch.rand(count, 3, generator=generator) * 2 - 1
     means[:, 2] += 5.0
     quats = torch.randn(count, 4, generator=generator)
-    scales = torch.full((count, 3), 0.01)
+    scales = torch.tensor([0.02, 0.01, 0.005]).repeat(count, 1)
     return Splats(means, quats, scales, torch.full((count,), 0.8), torch.rand(count, 4, generator=generator))
 
 

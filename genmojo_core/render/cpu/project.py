@@ -20,7 +20,7 @@ import numpy as np
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.kernels.cache import inlined, kernel
-from genmojo_core.render.rasterizer import ALPHA_MIN, DILATION, FRUSTUM_CLAMP
+from genmojo_core.render.rasterizer import ALPHA_MIN, FRUSTUM_CLAMP
 
 LOG2_E = 1.4426950408889634
 SHORTEST_QUATERNION = 1e-12
@@ -38,6 +38,7 @@ class Lens(NamedTuple):
     depths: np.ndarray  # (2,) float64: near, far
     width: int
     height: int
+    dilation: float  # px^2
 
 
 class Cloud(NamedTuple):
@@ -75,6 +76,7 @@ def lens_of(view: View, pose: np.ndarray | None = None) -> Lens:
         np.array([view.near, view.far], dtype=np.float64),
         int(view.width),
         int(view.height),
+        float(view.dilation),
     )
 
 
@@ -128,8 +130,9 @@ def ellipse(lens: Lens, cloud: Cloud, i: int, point: tuple) -> tuple:
     xy = px[0] * py[0] + px[1] * py[1] + px[2] * py[2]
     yy = py[0] * py[0] + py[1] * py[1] + py[2] * py[2]
     m0, m1, m2 = px[0] * py[1] - px[1] * py[0], px[0] * py[2] - px[2] * py[0], px[1] * py[2] - px[2] * py[1]
-    det = m0 * m0 + m1 * m1 + m2 * m2 + DILATION * (xx + yy) + DILATION * DILATION
-    return (xx + DILATION, xy, yy + DILATION, det), length
+    d = lens.dilation
+    det = m0 * m0 + m1 * m1 + m2 * m2 + d * (xx + yy) + d * d
+    return (xx + d, xy, yy + d, det), length
 
 
 @inlined

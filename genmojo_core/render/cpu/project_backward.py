@@ -22,7 +22,6 @@ from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.kernels.simd import fma, load8, prefetch, select8, splat8, store8
 from genmojo_core.render.cpu.bins import Bins
 from genmojo_core.render.cpu.project import Cloud, Lens
-from genmojo_core.render.rasterizer import DILATION
 
 LANES = 8
 MOMENTS = 6
@@ -118,13 +117,14 @@ def turned(w: tuple, m: tuple) -> tuple:
 
 
 @inlined
-def shape_slopes(scratch: np.ndarray, px: tuple, py: tuple) -> tuple:
+def shape_slopes(scratch: np.ndarray, px: tuple, py: tuple, dilation: float) -> tuple:
     """dL/dcentre (x, y) and twice the symmetric dL/dSigma (xx, xy, yy)."""
     xx, xy, yy = dot3(px, px), dot3(px, py), dot3(py, py)
     m0, m1, m2 = px[0] * py[1] - px[1] * py[0], px[0] * py[2] - px[2] * py[0], px[1] * py[2] - px[2] * py[1]
-    det = fma(m0, m0, fma(m1, m1, m2 * m2)) + (xx + yy) * DILATION + DILATION * DILATION
+    d = np.float32(dilation)
+    det = fma(m0, m0, fma(m1, m1, m2 * m2)) + (xx + yy) * d + d * d
     scale = np.float32(1) / det
-    a, b, c = (yy + DILATION) * scale, splat8(np.float32(0)) - xy * scale, (xx + DILATION) * scale
+    a, b, c = (yy + d) * scale, splat8(np.float32(0)) - xy * scale, (xx + d) * scale
     mx, my = row(scratch, SUMS + 1), row(scratch, SUMS + 2)
     mxx, mxy, myy = row(scratch, SUMS + 3), row(scratch, SUMS + 4), row(scratch, SUMS + 5)
     p, q = a * mxx + b * mxy, a * mxy + b * myy
@@ -179,7 +179,7 @@ def slopes_of_eight(lens: Lens, scratch: np.ndarray) -> None:
     qx = (jx * (vx[0] - u * vz[0]), jx * (vx[1] - u * vz[1]), jx * (vx[2] - u * vz[2]))
     qy = (jy * (vy[0] - v * vz[0]), jy * (vy[1] - v * vz[1]), jy * (vy[2] - v * vz[2]))
     px, py = (qx[0] * s[0], qx[1] * s[1], qx[2] * s[2]), (qy[0] * s[0], qy[1] * s[1], qy[2] * s[2])
-    centre, h = shape_slopes(scratch, px, py)
+    centre, h = shape_slopes(scratch, px, py, lens.dilation)
     gpx = (h[0] * px[0] + h[1] * py[0], h[0] * px[1] + h[1] * py[1], h[0] * px[2] + h[1] * py[2])  # dL/dP
     gpy = (h[1] * px[0] + h[2] * py[0], h[1] * px[1] + h[2] * py[1], h[1] * px[2] + h[2] * py[2])
     for k in range(3):
