@@ -39,8 +39,8 @@ class Picture:
     flow: np.ndarray | None = None
     backdrop: tuple[float, float, float] = WHITE
 
-    def on(self, backdrop: tuple[float, float, float] | np.ndarray | None = None) -> np.ndarray:  # (H, W, 3) float32 0..1
-        """The colour over a backdrop (one colour or an (H, W, 3) image; None: the picture's own), clamped."""
+    def on(self, backdrop: tuple[float, float, float] | np.ndarray | None = None) -> np.ndarray:
+        """(H, W, 3) float32 0..1 colour over a backdrop (one colour or an image; None: the picture's own), clamped."""
         behind = self.backdrop if backdrop is None else backdrop
         rest = (1.0 - self.alpha)[..., None] * np.asarray(behind, np.float32)
         return np.clip(self.color + rest, 0.0, 1.0)
