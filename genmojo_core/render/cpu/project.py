@@ -3,9 +3,9 @@
 Camera space t = W x + t0 with z = t_z; u = t_x / z, v = t_y / z; centre (f_x u + c_x, f_y v + c_y). The Jacobian of
 the projection is taken at u, v clamped to the image's field of view plus 15 % of its size on each side (METHOD.md
 section 5; the limits come from the principal point, so a crop clamps like the picture it was cut from). With
-P = J W R diag(s), a 2 x 3 matrix, the ellipse is Sigma = P P' + 0.3 I and its inverse is the conic (a, b, c):
-alpha = o exp(-(a dx^2 + 2 b dx dy + c dy^2) / 2). The determinant of Sigma is the sum of the squared 2 x 2 minors of P
-plus 0.3 tr(P P') + 0.09: no cancellation, so needles stay positive definite.
+P = J W R diag(s), a 2 x 3 matrix, the ellipse is Sigma = P P' + d I, d the view's dilation, and its inverse is the
+conic (a, b, c): alpha = o exp(-(a dx^2 + 2 b dx dy + c dy^2) / 2). The determinant of Sigma is the sum of the squared
+2 x 2 minors of P plus d tr(P P') + d^2: no cancellation, so needles stay positive definite.
 
 The box outside which alpha < 1/255 is exact: half-widths sqrt(2 ln(255 o) Sigma_xx), sqrt(2 ln(255 o) Sigma_yy).
 Everything per splat is float64; what the pixel loops read is float32.
