@@ -57,16 +57,8 @@ def scene(count: int, width: int, height: int, seed: int = 0) -> Splats[np.ndarr
     return Splats(*(np.ascontiguousarray(a[order], dtype=np.float32) for a in arrays))
 
 
-def contributing_pairs(splats: Splats[np.ndarray], view: View) -> int:
-    """(splat, pixel) pairs that are blended: alpha weights above 0, counted with a feature of one over weight."""
-    from genmojo_core.render.cpu.rasterize import draw
-
-    drawn = draw(splats, view)
-    return count_pairs(drawn)
-
-
 def count_pairs(drawn: object) -> int:
-    """Pairs of a finished drawing, replayed per tile in numpy."""
+    """(splat, pixel) pairs that a finished drawing blended, replayed per tile in numpy."""
     from genmojo_core.render.cpu.project import GEOMETRY
 
     bins, drawing = drawn.bins, drawn.passes[0].drawing

@@ -180,7 +180,7 @@ def test_numpy_and_torch_draw_the_same_bits() -> None:
 
 def test_gradients_are_those_of_finite_differences() -> None:
     """float64 oracle against finite differences, so that both gradients cannot share one mistake."""
-    splats, view = random_splats(6, 2, 12, size=0.2), camera(9, 8)
+    splats, view = random_splats(3, 1, 12, size=0.3), camera(5, 4)
     leaves = [getattr(splats, name).double().requires_grad_() for name in NAMES]
 
     def total(*parts: torch.Tensor) -> torch.Tensor:
