@@ -12,9 +12,7 @@ import numpy as np
 
 from genmojo_core.optimise.poses import Path, Problem, Sight, residual_rows, robust_weights
 
-_ORDERS = np.array(
-    [[i, j, k] for n in range(3) for i in range(n, -1, -1) for j in range(n - i, -1, -1) for k in [n - i - j]]
-)
+_TERMS = 10
 _ROUNDS = 4
 
 
@@ -39,20 +37,20 @@ class Bend:
     def undone(self, t: int, points: np.ndarray) -> np.ndarray:
         """Inverse of `at` by fixed-point steps: bent points (..., 3) back to the reference shape."""
         straight = points
-        for _ in range(6):
+        for _ in range(4 if self.coefficients[t].any() else 0):
             straight = points - (self.at(t, straight) - straight)
         return straight
 
 
 def monomials(x: np.ndarray) -> np.ndarray:  # (..., 3) -> (..., 10)
     """1, x, y, z and their products of order two, of coordinates limited to +-1.5."""
-    x = np.clip(x, -1.5, 1.5)
-    return np.prod(x[..., None, :] ** _ORDERS, axis=-1)
+    x, y, z = np.moveaxis(np.clip(x, -1.5, 1.5), -1, 0)
+    return np.stack([np.ones_like(x), x, y, z, x * x, x * y, x * z, y * y, y * z, z * z], axis=-1)
 
 
 def no_bend(frames: int, centre: np.ndarray, scale: float) -> Bend:
     """No displacement in any frame."""
-    return Bend(centre, scale, np.zeros((frames, len(_ORDERS), 3)))
+    return Bend(centre, scale, np.zeros((frames, _TERMS, 3)))
 
 
 def fit_bend(path: Path, problem: Problem) -> Bend:
@@ -63,7 +61,7 @@ def fit_bend(path: Path, problem: Problem) -> Bend:
 
     Priors: a coefficient is within 6 % of the object's size of zero, and its second difference in time within 1 %.
     """
-    frames, terms = len(path.position), 3 * len(_ORDERS)
+    frames, terms = len(path.position), 3 * _TERMS
     bend = no_bend(frames, path.centre, problem.size)
     for _ in range(_ROUNDS):
         normal = _prior(frames, terms, problem.size)
@@ -73,7 +71,7 @@ def fit_bend(path: Path, problem: Problem) -> Bend:
         keep = np.arange(frames * terms) // terms != path.ref
         found = np.zeros(frames * terms)
         found[keep] = np.linalg.solve(normal[np.ix_(keep, keep)], right[keep])
-        bend = Bend(bend.centre, bend.scale, found.reshape(frames, len(_ORDERS), 3))
+        bend = Bend(bend.centre, bend.scale, found.reshape(frames, _TERMS, 3))
     return bend
 
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from genmojo_core.clip.cameras import Cameras
 from genmojo_core.clip.clip import Channel, Clip
+from genmojo_core.errors import GenmojoError
 from genmojo_core.optimise.bend import Bend, carried
 from genmojo_core.optimise.motion_solver import Found, ObjectSolver
 from genmojo_core.optimise.poses import Path, camera_centre, project, rays
@@ -96,9 +97,12 @@ def carry(
 ) -> np.ndarray:  # (N, T, 2) held raster pixels
     """Where points of objects go in all frames: lifted by depth, moved by pose and bend, projected.
 
-    A query in a frame where its object is not seen is lifted at the depth of the object's centre.
+    A query in a frame where its object is not seen is lifted at the depth of the object's centre. Raises
+    GenmojoError("schema") if the clip has no cameras.
     """
-    cameras: Cameras = clip.cameras.value if clip.cameras is not None else None
+    if clip.cameras is None:
+        raise GenmojoError("schema", "has no cameras", clip.path, "complete the clip before carrying points")
+    cameras: Cameras = clip.cameras.value
     out = np.zeros((len(queries_xy), len(clip), 2))
     for k in np.unique(object_index):
         motion = motions[k]

@@ -21,7 +21,7 @@ from genmojo_core.trackers.stabilise import Link, Matcher
 _POINTS = 250  # places of a frame that take part in a solve
 _EDGE, _EDGE_REACH = 60, 2  # outline points of a frame; frames between two outlines that are compared
 _BACK = (1, 2, 4)  # frame distances of the outward pass
-_LINKS = (1, 2, 4, 8)  # frame distances of the joint solve
+_FIRST_LINKS, _LINKS = (1, 2, 4), (1, 2, 4, 8)  # frame distances of the two joint solves
 _TURN_WEIGHT = 10.0 / np.deg2rad(3.0) ** 2  # against explaining a guessed shape's change by turning
 _ANCHOR = 0.1  # of the size: how far the middle of what is seen may lie from where the centre goes
 _UNSEEN = 0.6  # of the last velocity goes on per frame in which the object is not seen
@@ -67,8 +67,8 @@ class ObjectSolver:
         path = self._outward()
         sights: list[Sight] = []
         every = np.ones(self.frames, bool)
-        for _ in range(2):
-            sights = self._all_sights(path)
+        for pairs in (self._pairs(_FIRST_LINKS, both=False), self._pairs(_LINKS, both=True)):
+            sights = self._sights(path, pairs)
             path, self.depth = solve(path, self._problem(sights), every, every, rounds=8)
             self._keep_shape()
         rigid = no_bend(self.frames, path.centre, self.surfaces.size)
@@ -181,11 +181,14 @@ class ObjectSolver:
         found = [make(path, s, t) for s, t in pairs for make in (self._sight, self._outline_sight)]
         return [sight for sight in found if sight is not None]
 
-    def _all_sights(self, path: Path) -> list[Sight]:
-        """Sights between all frames at the distances of _LINKS, both ways, and from the reference frame."""
-        pairs = {(s, t) for s in range(self.frames) for d in _LINKS for t in (s - d, s + d) if 0 <= t < self.frames}
-        pairs |= {(self.ref, t) for t in range(self.frames)} - {(self.ref, self.ref)}
-        return self._sights(path, sorted(pairs))
+    def _pairs(self, distances: tuple[int, ...], both: bool) -> list[tuple[int, int]]:
+        """Frames to link: at the given distances, away from the reference frame or both ways, and from it to all."""
+        pairs = {(self.ref, t) for t in range(self.frames)} - {(self.ref, self.ref)}
+        for early in range(self.frames):
+            for late in (early + d for d in distances if early + d < self.frames):
+                outward = (early, late) if early + late >= 2 * self.ref else (late, early)
+                pairs |= {(early, late), (late, early)} if both else {outward}
+        return sorted(pairs)
 
     # --- outward pass
 

@@ -285,7 +285,9 @@ def _kernel(error: np.ndarray) -> np.ndarray:
 
 def _cross_rows(rows: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Rows (N, R, 3) times the derivative of a turn about the origin of points (N, 3)."""
-    return np.cross(points[:, None], rows)
+    x, y, z = points[:, None].transpose(2, 0, 1)
+    a, b, c = rows.transpose(2, 0, 1)
+    return np.stack([y * c - z * b, z * a - x * c, x * b - y * a], axis=-1)
 
 
 def _six(slot: int) -> slice:
@@ -355,7 +357,7 @@ def _stepped(path: Path, step: np.ndarray, free: np.ndarray, slot: np.ndarray) -
     rotation, position = path.rotation.copy(), path.position.copy()
     for t in np.nonzero(free)[0]:
         part = step[_six(slot[t])]
-        angle = np.linalg.norm(part[:3])
+        angle = float(np.linalg.norm(part[:3]))
         rotation[t] = exp_rotation(part[:3] * min(1.0, 0.3 / max(angle, 1e-12))) @ rotation[t]
         position[t] = position[t] + part[3:]
     return replace(path, rotation=rotation, position=position)
