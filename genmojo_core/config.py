@@ -53,8 +53,8 @@ class RunConfig:
     short_side: int = 256  # pixels of the frame's short side while optimising
     gaussians_per_object: int = 5000  # upper bound
     background_gaussians: int = 12000  # upper bound
-    lift_steps: int = 150  # static lift, per run (all objects at once)
-    joint_steps: int = 1000  # joint steps over all frames
+    lift_steps: int = 100  # static lift, per run (all objects at once)
+    joint_steps: int = 700  # joint steps over all frames
     frames_per_step: int = 3  # frames splatted per joint step
     budget_seconds: float = 600.0  # the run ends here at the latest, with what it has
     motion_bases: int = 10
