@@ -67,8 +67,8 @@ class ObjectSolver:
         path = self._outward()
         sights: list[Sight] = []
         every = np.ones(self.frames, bool)
-        for pairs in (self._pairs(_FIRST_LINKS, both=False), self._pairs(_LINKS, both=True)):
-            sights = self._sights(path, pairs)
+        for last in (False, True):
+            sights = self._sights(path, self._pairs(_LINKS if last else _FIRST_LINKS, both=last), fine=last)
             path, self.depth = solve(path, self._problem(sights), every, every, rounds=8)
             self._keep_shape()
         rigid = no_bend(self.frames, path.centre, self.surfaces.size)
@@ -138,17 +138,17 @@ class ObjectSolver:
 
     # --- links
 
-    def _link(self, path: Path, s: int, t: int) -> Link | None:
+    def _link(self, path: Path, s: int, t: int, fine: bool = False) -> Link | None:
         """Match frame s to frame t as the path predicts."""
         surface = self.surfaces.surfaces[s]
         if surface is None or not self.seen[t]:
             return None
         predicted = project(self.surfaces.cameras, t, path.between(s, t, surface.points)).astype(np.float32)
-        return self.matcher.link(self.surfaces.layer, surface.grid, t, predicted)
+        return self.matcher.link(self.surfaces.layer, surface.grid, t, predicted, fine)
 
-    def _sight(self, path: Path, s: int, t: int) -> Sight | None:
+    def _sight(self, path: Path, s: int, t: int, fine: bool = False) -> Sight | None:
         """Matches of frame s in frame t at the chosen points."""
-        link, target = self._link(path, s, t), self.surfaces.surfaces[t]
+        link, target = self._link(path, s, t, fine), self.surfaces.surfaces[t]
         if link is None or target is None:
             return None
         rows, cols = self.cells[s].T
@@ -176,9 +176,10 @@ class ObjectSolver:
         none = np.zeros((int(good.sum()), 3))
         return Sight(s, t, index[good], place[good], np.ones(len(none)), none, none, facing[good])
 
-    def _sights(self, path: Path, pairs: list[tuple[int, int]]) -> list[Sight]:
+    def _sights(self, path: Path, pairs: list[tuple[int, int]], fine: bool = False) -> list[Sight]:
         """Texture and outline sights of pairs (source, target)."""
-        found = [make(path, s, t) for s, t in pairs for make in (self._sight, self._outline_sight)]
+        found = [self._sight(path, s, t, fine) for s, t in pairs]
+        found += [self._outline_sight(path, s, t) for s, t in pairs]
         return [sight for sight in found if sight is not None]
 
     def _pairs(self, distances: tuple[int, ...], both: bool) -> list[tuple[int, int]]:

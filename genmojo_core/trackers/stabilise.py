@@ -122,7 +122,7 @@ class Matcher:
     def __init__(self) -> None:
         self._fine, self._coarse = _dis(0), _dis(1)
 
-    def link(self, layer: Layer, grid: Grid, t: int, predicted: np.ndarray) -> Link:
+    def link(self, layer: Layer, grid: Grid, t: int, predicted: np.ndarray, fine: bool = False) -> Link:
         """Match a grid to frame t, starting from a predicted map.
 
         Args:
@@ -130,12 +130,13 @@ class Matcher:
             grid: its places in some frame.
             t: the frame to match to.
             predicted: (h, w, 2) float32 where each place is expected in frame t, defined on the whole grid.
+            fine: flow at the grid's full resolution, for the last pass.
         """
         shade = sample(layer.shade[t], predicted)
         seen = sample(layer.mask[t].astype(np.float32), predicted)
         source, target = _common(grid, shade, seen)
         h, w = grid.inside.shape
-        dis = self._coarse if max(h, w) >= _LARGE else self._fine
+        dis = self._coarse if max(h, w) >= _LARGE and not fine else self._fine
         forward, backward = dis.calc(source, target, None), dis.calc(target, source, None)
         cells = np.stack(np.meshgrid(np.arange(w), np.arange(h)), axis=-1).astype(np.float32)
         reached = cells + forward
