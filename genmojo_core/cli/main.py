@@ -5,7 +5,6 @@ Exit codes: 0 done, 2 bad input (one sentence on stderr), 130 interrupted (the w
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Sequence
 from types import TracebackType
@@ -17,8 +16,6 @@ from genmojo_core.cli.output import say, show
 from genmojo_core.errors import GenmojoError
 
 INTERRUPTED = 130
-# Many small matrices: more BLAS threads than one only wait for one another, and take time from the other work.
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
