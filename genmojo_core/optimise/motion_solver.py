@@ -226,7 +226,10 @@ class ObjectSolver:
         return path
 
     def _best_start(self, path: Path, s: int, t: int) -> Path:
-        """The path as predicted, or shifted to one of the best overlaps, whichever matches frame t best."""
+        """The path as predicted, or shifted to one of the best overlaps, whichever matches frame t best.
+
+        Far moves need better matches: score / (1 + (move / size)^2).
+        """
         surface = self.surfaces.surfaces[s]
         if surface is None:
             return path
@@ -234,23 +237,19 @@ class ObjectSolver:
         predicted = project(self.surfaces.cameras, t, moved).astype(np.float32)
         pose, k = self.surfaces.cameras.world_to_camera[t], self.surfaces.cameras.K[t]
         z = float(np.median((moved[surface.grid.inside] @ pose[:3, :3].T + pose[:3, 3])[:, 2]))
-        moves = [np.zeros(3), self._onto_mask(moved[surface.grid.inside], t)]
+        moves = [np.zeros(3)]
+        if self.anchor_weight[s] > 0 and self.anchor_weight[t] > 0:
+            moves.append(self.anchor[t] - np.median(moved[surface.grid.inside], axis=0))
         for shift in best_shifts(self.surfaces.layer, surface.grid, t, predicted):
             moves.append(np.array([shift[0] / k[0, 0] * z, shift[1] / k[1, 1] * z, 0.0]) @ pose[:3, :3])
         best, best_score = path, -1.0
         for move in moves:
             tried = path.moved(t, path.rotation[t], path.position[t] + move)
             link = self._link(tried, s, t)
-            if link is not None and link.score > best_score:
-                best, best_score = tried, link.score
+            score = 0.0 if link is None else link.score / (1.0 + float(move @ move) / self.surfaces.size**2)
+            if score > best_score:
+                best, best_score = tried, score
         return best
-
-    def _onto_mask(self, points: np.ndarray, t: int) -> np.ndarray:  # (N, 3) -> (3,) world
-        """The move that brings the median of predicted points onto the median of the surface of frame t."""
-        surface = self.surfaces.surfaces[t]
-        if surface is None:
-            return np.zeros(3)
-        return _middle(surface) - np.median(points, axis=0)
 
     # --- judgement
 
