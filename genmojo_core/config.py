@@ -82,7 +82,7 @@ class RunConfig:
 # draft: 192 px, because frames kept at 128 px and enlarged to 256 reach 24.6 dB at best on the clip "crossing".
 PRESETS: dict[str, RunConfig] = {
     "draft": RunConfig(
-        preset="draft", short_side=192, gaussians_per_object=2000, background_gaussians=8000, lift_steps=60,
+        preset="draft", short_side=224, gaussians_per_object=2000, background_gaussians=14000, lift_steps=60,
         joint_steps=240, frames_per_step=2, budget_seconds=70.0, plane_resolution=24, plane_channels=8,
         densify_every=40,
     ),

@@ -13,7 +13,7 @@ from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
-from genmojo_core.cli import arguments
+from genmojo_core.cli import arguments, models
 from genmojo_core.cli.output import progress, say
 from genmojo_core.config import RunConfig, preset
 from genmojo_core.errors import GenmojoError
@@ -31,10 +31,12 @@ def add_commands(commands: Any) -> None:
     effects = commands.add_parser("effects", help="what a clip calls for, and why")
     arguments.add_clip_options(effects)
     arguments.add_config_options(effects)
+    models.add_model_options(effects)
     effects.set_defaults(run=run_effects)
     optimize = commands.add_parser("optimize", help="clip to 4D scene")
     arguments.add_clip_options(optimize)
     arguments.add_config_options(optimize)
+    models.add_model_options(optimize)
     optimize.add_argument("-o", "--output", required=True, metavar="scene.h5")
     optimize.add_argument("--run-dir", metavar="DIR", help="where checkpoints go")
     optimize.add_argument("--resume", action="store_true", help="go on from the run folder's checkpoint")
@@ -57,9 +59,19 @@ def run_optimize(args: argparse.Namespace) -> dict[str, Any]:
         raise GenmojoError("argument", "there is no run folder to resume from", "--resume", "give --run-dir")
     check_writable(args.output)
     start = time.monotonic()
+    _compile_meanwhile(config)
     clip, plan = _prepare(args, config)
     job = Job(args.output, args.clip, start, args.frames, args.run_dir, args.resume)
     return optimize_clip(clip, plan, config, job)
+
+
+def _compile_meanwhile(config: RunConfig) -> None:
+    """Compile the CPU kernels while the clip is read; once compiled they are kept for later runs."""
+    if config.device.startswith("cuda"):
+        return
+    from genmojo_core.render import backend
+
+    backend.warm_up(say)
 
 
 @dataclass(frozen=True)
@@ -128,12 +140,13 @@ def _prepare(args: argparse.Namespace, config: RunConfig) -> tuple[Clip, EffectP
     from genmojo_core.estimate.complete import complete
 
     overrides = {} if args.effects == "auto" else decide.parse_overrides(args.effects)
+    external = models.models_of(args)
     with progress("reading") as tell:
         clip = folders.read(args.clip, frames=args.frames, short_side=config.short_side, ignore=args.ignore,
                             pixel_aspect=args.pixel_aspect)  # fmt: skip
         tell(1.0)
     with progress("looking at the clip") as tell:
-        clip = complete(clip, boxes=_boxes(args), progress=lambda _, share: tell(share))
+        clip = complete(clip, boxes=_boxes(args), progress=lambda _, share: tell(share), models=external)
     return clip, decide.plan(clip, config, overrides)
 
 
