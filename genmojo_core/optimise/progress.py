@@ -25,6 +25,10 @@ class Clock:
         """(wall, CPU) seconds."""
         return (time.perf_counter() - self._wall + self._earlier[0], time.process_time() - self._cpu + self._earlier[1])
 
+    def this_run(self) -> float:
+        """Wall seconds since this run started, earlier runs of a resumed one left out: what the budget counts."""
+        return time.perf_counter() - self._wall
+
     def add(self, wall: float, cpu: float) -> None:
         """Count the seconds of the run that is being resumed."""
         self._earlier = (wall, cpu)
@@ -77,17 +81,18 @@ class Progress:
 
     def fraction(self, clock: Clock) -> float:
         """0..1 of the run done, by steps or by budget, whichever is further."""
-        return min(1.0, max(self.step / self.total, clock.now()[0] / self.config.budget_seconds))
+        return min(1.0, max(self.step / self.total, clock.this_run() / self.config.budget_seconds))
 
     def out_of_time(self, clock: Clock) -> bool:
         """True once the budget is spent."""
-        return clock.now()[0] >= self.config.budget_seconds
+        return clock.this_run() >= self.config.budget_seconds
 
     def event(self, clock: Clock, gaussians: int) -> Step:
         """The step just done, as an event."""
         wall, cpu = clock.now()
         done = self.fraction(clock)
-        left = min(wall * (1.0 - done) / max(done, 1e-6), self.config.budget_seconds - wall)
+        spent = clock.this_run()
+        left = min(spent * (1.0 - done) / max(done, 1e-6), self.config.budget_seconds - spent)
         outcome = self._last
         return Step(wall, cpu, self._stage.name, self._stage_step, self._stage.steps, float(outcome.loss.detach()),
                     outcome.parts, gaussians, self.psnr(), done, max(0.0, left))  # fmt: skip
