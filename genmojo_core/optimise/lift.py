@@ -11,7 +11,7 @@ from torch import Tensor
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.config import RunConfig
-from genmojo_core.conventions import DILATION
+from genmojo_core.conventions import DILATION, matrix_to_quaternion
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.errors import GenmojoError
 from genmojo_core.optimise.first_poses import Moves
@@ -21,7 +21,7 @@ from genmojo_core.scene.appearance import FrameGain
 from genmojo_core.scene.background import background_points
 from genmojo_core.scene.deform import DeformationField, FieldShape
 from genmojo_core.scene.gaussians import Gaussians
-from genmojo_core.scene.initialise import Points, points_of_image, uncovered
+from genmojo_core.scene.initialise import Points, points_of_image, surface_axes, uncovered
 from genmojo_core.scene.placement import Placement
 from genmojo_core.scene.scene4d import Layout, ObjectModel, Scene4D
 
@@ -74,7 +74,7 @@ def lift(clip: Clip, plan: EffectPlan, config: RunConfig, motions: Sequence[Move
     background = None
     if plan.on("background") and config.background_gaussians:
         cloud = background_points(clip, config.background_gaussians)
-        background = Gaussians.from_points(_tensor(cloud.xyz), _tensor(cloud.rgb), _tensor(cloud.sigma), 0.95)
+        background = Gaussians.from_surface(_tensor(cloud.xyz), _tensor(cloud.rgb), _axes(cloud, 1.0), 0.95)
     labels = len(objects) if plan.on("instance_labels") else 1
     cameras = replace(clip.cameras.value, dilation=DILATION)  # at the optimised size, whatever size they came in
     scene = Scene4D(objects, background, gain, cameras, Layout(labels, plan.on("flow")))
@@ -105,16 +105,16 @@ def object_points(clip: Clip, k: int, motion: Moves, count: int) -> Points:
         left = count - len(points)
         if motion.confidence[t] < 0.3 or left < MIN_POINTS:
             continue
-        there = Points(_moved(_bent(motion, t, points.xyz), motion.pose[t]), points.rgb, points.sigma)
+        there = replace(points, xyz=_bent(motion, t, points.xyz)).moved(motion.pose[t])
         holes = uncovered(there, cameras.view(t), usable[t])
         if holes.sum() < 4:
             continue
         share = max(MIN_POINTS, left // (len(others) - i))
         found = points_of_image(clip.frames[t], _depth(clip, motion, t), holes, cameras.view(t), share)
-        back = _moved(found.xyz, np.linalg.inv(motion.pose[t]))
-        back = back if motion.bend is None else motion.bend.undone(t, back)
-        size = np.cbrt(np.linalg.det(motion.pose[t][:3, :3]))
-        points = points.joined(Points(back, found.rgb, found.sigma / size))
+        back = found.moved(np.linalg.inv(motion.pose[t]))
+        if motion.bend is not None:
+            back = replace(back, xyz=motion.bend.undone(t, back.xyz))
+        points = points.joined(back)
     return points
 
 
@@ -141,7 +141,7 @@ def _object_model(
     rgb = _tensor(points.rgb)
     if plan.on("appearance_change"):
         rgb = rgb / frame_gains(clip)[motion.ref_frame]
-    gaussians = Gaussians.from_points(local, rgb.clamp(0, 1), _tensor(points.sigma / size))
+    gaussians = Gaussians.from_surface(local, rgb.clamp(0, 1), _axes(points, size))
     centres = np.linalg.inv(clip.cameras.value.world_to_camera)[:, :3, 3]
     placement = Placement(motion.pose @ to_object, centres)
     field = None
@@ -182,12 +182,11 @@ def _padded(points: Points, clip: Clip, k: int, motion: Moves) -> Points:
         t = int(seen[0])
         mask = clip.object_mask(k)[t] & clip.depth.valid[t]
         points = points_of_image(clip.frames[t], clip.depth.value[t], mask, clip.cameras.value.view(t), MIN_POINTS)
-        points = Points(_moved(points.xyz, np.linalg.inv(motion.pose[t])), points.rgb, points.sigma)
-    copies = int(np.ceil(MIN_POINTS / len(points)))
-    jitter = np.random.default_rng(0).normal(size=(copies * len(points), 3))
-    sigma = np.repeat(points.sigma, copies)
-    return Points(np.repeat(points.xyz, copies, axis=0) + 0.3 * jitter * sigma[:, None],
-                  np.repeat(points.rgb, copies, axis=0), sigma)  # fmt: skip
+        points = points.moved(np.linalg.inv(motion.pose[t]))
+    for _ in range(int(np.ceil(np.log2(MIN_POINTS / len(points))))):
+        points = points.joined(points)
+    jitter = np.random.default_rng(0).normal(size=points.xyz.shape)
+    return replace(points, xyz=points.xyz + 0.3 * jitter * points.sigma[:, None])
 
 
 def _depth(clip: Clip, motion: Moves, t: int) -> np.ndarray:  # (H, W)
@@ -227,9 +226,10 @@ def _start_bending(field: DeformationField, motion: Moves, points: np.ndarray, l
             field.bases[t] = torch.linalg.solve(pull, coefficients.T @ moved).float()
 
 
-def _moved(points: np.ndarray, pose: np.ndarray) -> np.ndarray:
-    """(N, 3) points under a (4, 4) similarity."""
-    return points @ pose[:3, :3].T + pose[:3, 3]
+def _axes(points: Points, size: float) -> tuple[Tensor, Tensor]:
+    """Quaternions (N, 4) and standard deviations (N, 3) of pieces of surface, in units of `size`."""
+    rotations, sigmas = surface_axes(points.tangents)
+    return _tensor(matrix_to_quaternion(rotations)), _tensor(sigmas / size)
 
 
 def _tensor(array: np.ndarray) -> Tensor:

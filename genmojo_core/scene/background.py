@@ -8,6 +8,7 @@ import numpy as np
 from genmojo_core.clip.clip import Clip
 from genmojo_core.scene.initialise import Points, points_of_image, uncovered
 
+STEEPEST = 12.0  # depth steps per pixel, in pixel widths, over which the ground is followed at grazing angles
 MARGIN = 1.02  # background stays at least 2 % behind the objects that pass in front of it
 
 
@@ -23,7 +24,7 @@ def background_points(clip: Clip, count: int) -> Points:
     moving = np.abs(cameras.world_to_camera - cameras.world_to_camera[:1]).max() > 1e-6
     if not moving:
         depth = _behind_objects(clip, depth)
-    first = points_of_image(plate, depth, everywhere, view, count if not moving else int(count * 0.75))
+    first = points_of_image(plate, depth, everywhere, view, count if not moving else int(count * 0.75), STEEPEST)
     if not moving:
         return first
     points = first
@@ -36,7 +37,7 @@ def background_points(clip: Clip, count: int) -> Points:
         holes = cv2.morphologyEx(holes.astype(np.uint8), cv2.MORPH_OPEN, np.ones((3, 3), np.uint8)) > 0
         share = max(16, left // 2)
         points = points.joined(
-            points_of_image(clip.frames[t], clip.depth.value[t], holes, cameras.view(t), min(share, left))
+            points_of_image(clip.frames[t], clip.depth.value[t], holes, cameras.view(t), min(share, left), STEEPEST)
         )
     return points
 

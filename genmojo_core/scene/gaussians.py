@@ -47,6 +47,13 @@ class Gaussians(nn.Module):
         logits = safemath.logit(torch.full((len(points),), opacity))
         return Gaussians(points, quats, log_scales, logits, (rgb - 0.5) / SH_C0)
 
+    @staticmethod
+    def from_surface(points: Tensor, rgb: Tensor, axes: tuple[Tensor, Tensor], opacity: float = 0.9) -> Gaussians:
+        """Gaussians laid on a surface: points (N, 3), rgb (N, 3) in 0..1, axes = quats (N, 4), sigmas (N, 3)."""
+        quats, sigmas = axes
+        logits = safemath.logit(torch.full((len(points),), opacity))
+        return Gaussians(points, quats, safemath.safe_log(sigmas.clamp(min=1e-7), 1e-7), logits, (rgb - 0.5) / SH_C0)
+
     def opacities(self) -> Tensor:
         """(N,) in 0..1."""
         return torch.sigmoid(self.logit_opacities)

@@ -13,22 +13,37 @@ import numpy as np
 
 from genmojo_core.clip.cameras import View
 
+STEEPEST = 3.0  # largest depth step per pixel that an object's surface is followed over, in pixel widths
+
 
 @dataclass(frozen=True)
 class Points:
-    """N coloured world points: xyz (N, 3) float64, rgb (N, 3) in 0..1, sigma (N,) standard deviation, scene units."""
+    """N coloured pieces of surface in world space.
+
+    Args:
+        xyz: (N, 3) float64. rgb: (N, 3) in 0..1. sigma: (N,) standard deviation across the view, scene units.
+        tangents: (N, 2, 3) one standard deviation along the surface as the image's columns and rows run over it.
+    """
 
     xyz: np.ndarray
     rgb: np.ndarray
     sigma: np.ndarray
+    tangents: np.ndarray
 
     def __len__(self) -> int:
         return len(self.xyz)
 
     def joined(self, other: Points) -> Points:
         """Both clouds, this one first."""
-        return Points(np.concatenate([self.xyz, other.xyz]), np.concatenate([self.rgb, other.rgb]),
-                      np.concatenate([self.sigma, other.sigma]))  # fmt: skip
+        pairs = ((self.xyz, other.xyz), (self.rgb, other.rgb), (self.sigma, other.sigma),
+                 (self.tangents, other.tangents))  # fmt: skip
+        return Points(*(np.concatenate(pair) for pair in pairs))
+
+    def moved(self, pose: np.ndarray) -> Points:
+        """The cloud under a (4, 4) similarity."""
+        linear = pose[:3, :3]
+        size = np.cbrt(np.linalg.det(linear))
+        return Points(self.xyz @ linear.T + pose[:3, 3], self.rgb, self.sigma * size, self.tangents @ linear.T)
 
 
 def quadtree(image: np.ndarray, mask: np.ndarray, count: int, smallest: int = 1) -> np.ndarray:
@@ -116,15 +131,18 @@ def project(points: np.ndarray, view: View) -> tuple[np.ndarray, np.ndarray]:  #
     return np.stack([view.fx * in_camera[:, 0] / safe + view.cx, view.fy * in_camera[:, 1] / safe + view.cy], 1), z
 
 
-def points_of_image(image: np.ndarray, depth: np.ndarray, mask: np.ndarray, view: View, count: int) -> Points:
+def points_of_image(
+    image: np.ndarray, depth: np.ndarray, mask: np.ndarray, view: View, count: int, steepest: float = STEEPEST
+) -> Points:
     """Coloured world points of the masked part of one frame; sigma covers the cell at its depth.
 
     Args:
         image: (H, W, 3) uint8. depth: (H, W) z. mask: (H, W) bool. count: most points wanted.
+        steepest: largest depth step per pixel that the surface is followed over, in pixel widths.
     """
     cells = quadtree(image, mask, count)
     if not len(cells):
-        return Points(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0))
+        return Points(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0), np.zeros((0, 2, 3)))
     xi = np.clip(cells[:, 0].astype(int), 0, view.width - 1)
     yi = np.clip(cells[:, 1].astype(int), 0, view.height - 1)
     z = depth[yi, xi].astype(np.float64)
@@ -142,7 +160,50 @@ def points_of_image(image: np.ndarray, depth: np.ndarray, mask: np.ndarray, view
     rgb[empty] = image[yi[empty], xi[empty]] / 255.0
     side = np.sqrt(cells[:, 2] * cells[:, 3] * np.maximum(cells[:, 4], 0.25))
     sigma = 0.5 * side * z / np.sqrt(view.fx * view.fy)
-    return Points(unproject(cells[:, :2], z, view), rgb, sigma)
+    return Points(unproject(cells[:, :2], z, view), rgb, sigma, _tangents(depth, mask, cells, view, steepest))
+
+
+def _tangents(depth: np.ndarray, mask: np.ndarray, cells: np.ndarray, view: View, steepest: float) -> np.ndarray:
+    """(M, 2, 3) half a cell's width and height laid along the surface, so that it stays closed seen from the side.
+
+    The slope comes from the smaller of the two neighbouring depth steps, and not from across the mask's border, so
+    that a surface does not reach over to what lies behind it; it is limited to `steepest`.
+    """
+    known = np.where(mask, depth.astype(np.float64), np.nan)
+    slopes = []
+    for axis in (1, 0):
+        step = np.diff(known, axis=axis)
+        pad = [(0, 0), (0, 0)]
+        pad[axis] = (1, 0)
+        before = np.nan_to_num(np.pad(step, pad, constant_values=np.nan), nan=np.inf)
+        pad[axis] = (0, 1)
+        after = np.nan_to_num(np.pad(step, pad, constant_values=np.nan), nan=np.inf)
+        slope = np.where(np.abs(before) < np.abs(after), before, after)
+        slopes.append(np.where(np.isfinite(slope), slope, 0.0))
+    xi = np.clip(cells[:, 0].astype(int), 0, view.width - 1)
+    yi = np.clip(cells[:, 1].astype(int), 0, view.height - 1)
+    z = depth[yi, xi].astype(np.float64)
+    ends = []
+    for axis, slope in enumerate(slopes):
+        reach = 0.5 * cells[:, 2 + axis] * np.sqrt(np.maximum(cells[:, 4], 0.25))  # pixels
+        limit = steepest * z / (view.fx, view.fy)[axis]
+        shift = np.zeros((len(cells), 2))
+        shift[:, axis] = reach
+        far = z + np.clip(slope[yi, xi], -limit, limit) * reach
+        ends.append(unproject(cells[:, :2] + shift, far, view) - unproject(cells[:, :2], z, view))
+    return np.stack(ends, axis=1)
+
+
+def surface_axes(tangents: np.ndarray, thickness: float = 0.5) -> tuple[np.ndarray, np.ndarray]:
+    """Gaussians that cover pieces of surface: rotations (N, 3, 3) and standard deviations (N, 3).
+
+    The covariance is the sum of the tangents' outer products; along the normal, `thickness` of the smaller of the two.
+    """
+    left, spread, _ = np.linalg.svd(np.swapaxes(tangents, 1, 2), full_matrices=True)
+    flip = np.linalg.det(left) < 0
+    left[flip, :, 2] *= -1.0
+    spread = np.maximum(spread, 1e-12)
+    return left, np.concatenate([spread, thickness * spread[:, 1:]], axis=1)
 
 
 def uncovered(points: Points, view: View, mask: np.ndarray) -> np.ndarray:  # (H, W) bool
