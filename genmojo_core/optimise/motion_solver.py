@@ -24,6 +24,8 @@ _BACK = (1, 2, 4)  # frame distances of the outward pass
 _FIRST_LINKS, _LINKS = (1, 2, 4), (1, 2, 4, 8)  # frame distances of the two joint solves
 _TURN_WEIGHT = 10.0 / np.deg2rad(3.0) ** 2  # against explaining a guessed shape's change by turning
 _ANCHOR = 0.1  # of the size: how far the middle of what is seen may lie from where the centre goes
+_JUMP = 0.15  # of the size: change of position against a known velocity that halves a match's score
+_SCRAP = 0.4  # of the largest area: less than this is no ground to leave a known velocity
 _UNSEEN = 0.6  # of the last velocity goes on per frame in which the object is not seen
 _ON_SURFACE = (0.01, 0.05)  # of the size: how far carried points may lie off measured and guessed depth
 _BEND_GAIN = 0.85  # a bend must bring the median residual below this share of the rigid one's
@@ -228,7 +230,8 @@ class ObjectSolver:
     def _best_start(self, path: Path, s: int, t: int) -> Path:
         """The path as predicted, or shifted to one of the best overlaps, whichever matches frame t best.
 
-        Far moves need better matches: score / (1 + (move / size)^2).
+        Far moves need better matches: score / (1 + (move / allowed)^2), where allowed is the
+        object's size, or a part of it once its velocity is known.
         """
         surface = self.surfaces.surfaces[s]
         if surface is None:
@@ -240,13 +243,16 @@ class ObjectSolver:
         moves = [np.zeros(3)]
         if self.anchor_weight[s] > 0 and self.anchor_weight[t] > 0:
             moves.append(self.anchor[t] - np.median(moved[surface.grid.inside], axis=0))
-        for shift in best_shifts(self.surfaces.layer, surface.grid, t, predicted):
+        steady = abs(s - t) == 1 and s != self.ref  # the velocity is known
+        hidden = steady and self.surfaces.layer.mask[t].sum() < _SCRAP * self.surfaces.area.max()
+        for shift in [] if hidden else best_shifts(self.surfaces.layer, surface.grid, t, predicted):
             moves.append(np.array([shift[0] / k[0, 0] * z, shift[1] / k[1, 1] * z, 0.0]) @ pose[:3, :3])
+        allowed = self.surfaces.size * (_JUMP if steady else 1.0)
         best, best_score = path, -1.0
         for move in moves:
             tried = path.moved(t, path.rotation[t], path.position[t] + move)
             link = self._link(tried, s, t)
-            score = 0.0 if link is None else link.score / (1.0 + float(move @ move) / self.surfaces.size**2)
+            score = 0.0 if link is None else link.score / (1.0 + float(move @ move) / allowed**2)
             if score > best_score:
                 best, best_score = tried, score
         return best

@@ -59,7 +59,8 @@ class Link:
 
     Args:
         xy: (h, w, 2) float32 raster pixels of the other frame.
-        weight: (h, w) float32 0..1; 0 outside the object, where it is hidden there, or where flow contradicts itself.
+        weight: (h, w) float32 0..1; 0 outside the object, where it is hidden there, or where flow contradicts itself;
+            all less where most of what is visible in both frames does not match.
         score: mean agreement 0..1 of the matched places, times the share of the object that is matched.
     """
 
@@ -144,6 +145,7 @@ class Matcher:
         alike = np.abs(_at(shade.astype(np.float32), reached) - grid.shade)
         solid = (_at(seen, reached) > _MASK_FULL) & (_eroded(grid.inside))
         weight = solid * np.exp(-((error / 0.8) ** 2)) * np.exp(-((cv2.blur(alike, (5, 5)) / 30.0) ** 2))
+        weight *= np.clip(2.5 * weight.sum() / max(float(solid.sum()), 1.0) - 0.5, 0.0, 1.0)
         share = weight.sum() / max(float(grid.inside.sum()), 1.0)
         return Link(_at(predicted, reached), weight.astype(np.float32), float(share))
 
