@@ -145,6 +145,10 @@ def _faults(config: RunConfig) -> list[str]:
             value = getattr(group, f.name)
             if not math.isfinite(value) or value < 0:
                 faults.append(f"{type(group).__name__}.{f.name} is {value}, allowed is 0 or more")
+    if config.prior != "none":
+        faults.append(f"there is no prior '{config.prior}' in this version, only none")
+    if config.method != "genmojo":
+        faults.append(f"there is no method '{config.method}' in this version, only genmojo")
     known = ("depth", "cameras", "flow", "background", "tracks")
     faults += [f"cannot ignore '{name}', only {', '.join(known)}" for name in config.ignore if name not in known]
     return faults

@@ -84,7 +84,7 @@ def add_config_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--budget", type=seconds, metavar="60s", help="end after this time with what stands")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--device", default="auto", help="auto, cpu or cuda")
-    parser.add_argument("--prior", default="none", help="view prior: none, embedded or zero123:DIR")
+    parser.add_argument("--prior", default="none", help="view prior; this version has none")
 
 
 def config_changes(args: argparse.Namespace) -> dict[str, Any]:
