@@ -19,17 +19,21 @@ from genmojo_core.trackers.search import best_shifts
 from genmojo_core.trackers.stabilise import Grid, Layer, Link, Matcher, flat_shade, grid_of
 
 _STEPS = (1, 2, 4)  # frames between the ends of a link
+_SCRAP = 0.4  # of the largest area: less than this is no ground to leave the expected place
+_HOLD = 0.01  # weight of the fallback affine, as a share of the object's places
+_THIN = 0.3  # an affine flatter than this is taken for a wrong match
 _HIDDEN = 0.2  # confidence of a place that only the object's affine motion predicts
 
 
 @dataclass
 class _Object:
-    """One object's layer, grids and affines between frames while tracks are made."""
+    """One object's layer, grids, links between frames and largest area while tracks are made."""
 
     layer: Layer
     grids: list[Grid | None]
     matcher: Matcher
     links: dict[tuple[int, int], tuple[Link, np.ndarray] | None]
+    area: float
 
 
 def track_points(
@@ -55,7 +59,9 @@ def track_points(
         mask = clip.object_mask(int(k))
         other = (clip.masks.value > 0) & ~mask if clip.masks is not None else ~mask
         layer = Layer(shade, mask, other)
-        thing = _Object(layer, [grid_of(layer, t) for t in range(frames)], matcher, {})
+        thing = _Object(
+            layer, [grid_of(layer, t) for t in range(frames)], matcher, {}, float(mask.sum(axis=(1, 2)).max())
+        )
         for q in np.unique(queries_t[object_index == k]):
             rows = np.nonzero((object_index == k) & (queries_t == q))[0]
             xy[rows], conf[rows] = _follow(thing, int(q), xy[rows, q])
@@ -84,6 +90,7 @@ def _follow(thing: _Object, q: int, xy: np.ndarray) -> tuple[np.ndarray, np.ndar
         t = q + direction
         while 0 <= t < frames:
             sources = [s for s in done if abs(s - t) in _STEPS or s == q] or done[-1:]
+            sources.reverse()  # nearest first: links that skip frames start from those that do not
             found = [r for s in sources if (r := _carried(thing, s, t, out[:, s], conf[:, s])) is not None]
             if found:
                 out[:, t], conf[:, t] = _agreed(np.stack([f[0] for f in found]), np.stack([f[1] for f in found]))
@@ -118,7 +125,9 @@ def _carried(thing: _Object, s: int, t: int, xy: np.ndarray, conf: np.ndarray) -
     near = cv2.remap(smooth, cells, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)[:, 0]
     reliable = np.clip(3.0 * cv2.remap(amount, cells, None, cv2.INTER_LINEAR)[:, 0], 0.0, 1.0)[:, None]
     place = _applied(affine, xy) + near * reliable
-    return place, np.maximum(weight, _HIDDEN * min(1.0, 3.0 * link.score)) * np.maximum(conf, 0.05)
+    return place, np.maximum(weight, _HIDDEN * np.clip(3.0 * link.score, 0.01, 1.0)) * np.maximum(
+        conf, 0.05
+    )  # never 0: some link must be believed
 
 
 def _agreed(places: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -146,10 +155,13 @@ def _matched(thing: _Object, s: int, t: int) -> tuple[Link, np.ndarray] | None:
     start = _chain(thing, s, t)
     predicted = _applied(start, grid.xy)
     best = thing.matcher.link(thing.layer, grid, t, predicted)
-    if abs(s - t) == 1 or best.score < 0.3:
-        for shift in best_shifts(thing.layer, grid, t, predicted):
-            tried = thing.matcher.link(thing.layer, grid, t, (predicted + shift).astype(np.float32))
-            best = tried if tried.score > best.score else best
+    areas = thing.layer.mask[[s, t]].sum(axis=(1, 2))
+    scrap = areas.min() < _SCRAP * thing.area
+    size = float(np.sqrt(max(float(areas[0]), 1.0)))
+    for shift in [] if scrap else best_shifts(thing.layer, grid, t, predicted):
+        tried = thing.matcher.link(thing.layer, grid, t, (predicted + shift).astype(np.float32))
+        if tried.score / (1.0 + float(shift @ shift) / size**2) > best.score:
+            best = tried
     affine = _robust_affine(grid, best, start)
     again = thing.matcher.link(thing.layer, grid, t, _applied(affine, grid.xy))
     if again.score >= best.score:
@@ -179,7 +191,7 @@ def _applied(affine: np.ndarray, xy: np.ndarray) -> np.ndarray:
 
 
 def _robust_affine(grid: Grid, link: Link, fallback: np.ndarray) -> np.ndarray:  # (2, 3)
-    """Affine of a link by reweighted least squares, held near a similarity-free small change of the fallback."""
+    """Affine of a link by reweighted least squares, held to the fallback where few places match."""
     rows, cols = np.nonzero(link.weight > 0.05)
     if len(rows) < 8:
         return fallback
@@ -189,7 +201,7 @@ def _robust_affine(grid: Grid, link: Link, fallback: np.ndarray) -> np.ndarray: 
     spread = max(float(np.sqrt(np.average((source - middle) ** 2, axis=0, weights=weight).sum())), 1e-6)
     design = np.concatenate([(source - middle) / spread, np.ones((len(source), 1))], axis=1)
     held = np.vstack([(fallback[:, :2] * spread).T, _applied(fallback, middle)])
-    ridge = np.diag([1.0, 1.0, 0.0]) * 0.01 * weight.sum()
+    ridge = np.diag([1.0, 1.0, 0.05]) * _HOLD * float(grid.inside.sum())
     solution, pull = held, weight
     for _ in range(6):
         solution = np.linalg.solve(design.T @ (design * pull[:, None]) + ridge + 1e-9 * np.eye(3),
@@ -197,4 +209,7 @@ def _robust_affine(grid: Grid, link: Link, fallback: np.ndarray) -> np.ndarray: 
         error = np.linalg.norm(design @ solution - target, axis=1)
         pull = weight / (1.0 + (error / 1.5) ** 2) ** 2
     linear = solution[:2].T / spread
+    sizes = np.linalg.svd(linear, compute_uv=False)
+    if sizes[1] < _THIN * sizes[0] or not 0.4 < sizes[0] < 2.5:
+        return fallback
     return np.concatenate([linear, (solution[2] - linear @ middle)[:, None]], axis=1)
