@@ -125,9 +125,8 @@ def _carried(thing: _Object, s: int, t: int, xy: np.ndarray, conf: np.ndarray) -
     near = cv2.remap(smooth, cells, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)[:, 0]
     reliable = np.clip(3.0 * cv2.remap(amount, cells, None, cv2.INTER_LINEAR)[:, 0], 0.0, 1.0)[:, None]
     place = _applied(affine, xy) + near * reliable
-    return place, np.maximum(weight, _HIDDEN * np.clip(3.0 * link.score, 0.01, 1.0)) * np.maximum(
-        conf, 0.05
-    )  # never 0: some link must be believed
+    unseen = _HIDDEN * np.clip(3.0 * link.score, 0.01, 1.0)  # never 0: some link must be believed
+    return place, np.maximum(weight, unseen) * np.maximum(conf, 0.05)
 
 
 def _agreed(places: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
