@@ -14,6 +14,7 @@ import numpy as np
 
 from genmojo_core.clip.cameras import Cameras
 
+DEPTH_RANGE = 2.0  # a guessed depth may become half or twice as much, no more
 
 @dataclass(frozen=True)
 class Path:
@@ -168,8 +169,10 @@ def solve(
                 normal[place, place] += problem.anchor_weight[t] * np.eye(3)
                 right[place] += problem.anchor_weight[t] * (problem.anchor[t] - path.position[t])
         step, depth_step = shape.eliminate(normal, right, depth - prior)
-        depth = depth + depth_step
-        path = _stepped(path, step, free, slot)
+        if not (np.isfinite(step).all() and np.isfinite(depth_step).all()):
+            break  # matches that determine nothing: what stands is kept
+        depth = np.clip(depth + depth_step, prior / DEPTH_RANGE, prior * DEPTH_RANGE)
+        path = _stepped(path, step, free, slot, problem.size)
         if np.abs(step).max() < 1e-5 * max(problem.size, 1e-9):
             break
     return path, depth
@@ -352,12 +355,13 @@ def exp_rotation(vector: np.ndarray) -> np.ndarray:  # (3,) -> (3, 3)
     return cv2.Rodrigues(np.asarray(vector, np.float64))[0]
 
 
-def _stepped(path: Path, step: np.ndarray, free: np.ndarray, slot: np.ndarray) -> Path:
-    """The path after a Gauss-Newton step; turns are limited to 0.3 rad."""
+def _stepped(path: Path, step: np.ndarray, free: np.ndarray, slot: np.ndarray, size: float) -> Path:
+    """The path after a Gauss-Newton step; turns are limited to 0.3 rad, moves to half the object's size."""
     rotation, position = path.rotation.copy(), path.position.copy()
     for t in np.nonzero(free)[0]:
         part = step[_six(slot[t])]
         angle = float(np.linalg.norm(part[:3]))
         rotation[t] = exp_rotation(part[:3] * min(1.0, 0.3 / max(angle, 1e-12))) @ rotation[t]
-        position[t] = position[t] + part[3:]
+        far = float(np.linalg.norm(part[3:]))
+        position[t] = position[t] + part[3:] * min(1.0, 0.5 * size / max(far, 1e-12))
     return replace(path, rotation=rotation, position=position)
