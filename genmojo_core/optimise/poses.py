@@ -16,6 +16,7 @@ from genmojo_core.clip.cameras import Cameras
 
 DEPTH_RANGE = 2.0  # a guessed depth may become half or twice as much, no more
 
+
 @dataclass(frozen=True)
 class Path:
     """Where the object is: X at frame t = rotation[t] (X_ref - centre) + position[t], world coordinates.
