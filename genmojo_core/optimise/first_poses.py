@@ -5,13 +5,15 @@ The accurate motion (motion.py) takes its place as soon as it is solved.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
 
 from genmojo_core.clip.clip import Clip
-from genmojo_core.optimise.bend import Bend
+from genmojo_core.optimise.bend import Bend, no_bend
+from genmojo_core.optimise.motion import ObjectMotion
 from genmojo_core.optimise.surfaces import Patch
 from genmojo_core.scene.initialise import unproject
 
@@ -54,6 +56,29 @@ class FirstPoses:
 def first_poses(clip: Clip) -> list[FirstPoses]:
     """One per object: it is moved as its visible points' median moves, straight on while it is hidden."""
     return [_follow(clip, k) for k in range(clip.objects)]
+
+
+def usable_motion(clip: Clip, motions: Sequence[ObjectMotion]) -> tuple[list[ObjectMotion], list[str]]:
+    """The motions, with the rough poses and no tracks in the place of one that is not finite; and a sentence for each.
+
+    One object that cannot be followed must not spoil the others (RELIABILITY.md N27).
+    """
+    checked, doubts = [], []
+    for k, motion in enumerate(motions):
+        numbers = (motion.pose, motion.confidence, motion.track_xyz, motion.track_xy, motion.track_conf)
+        if all(np.isfinite(part).all() for part in numbers):
+            checked.append(motion)
+            continue
+        rough, frames = _follow(clip, k), len(clip)
+        checked.append(
+            replace(
+                motion, ref_frame=rough.ref_frame, pose=rough.pose, confidence=rough.confidence,
+                track_xyz=np.zeros((0, 3)), track_xy=np.zeros((0, frames, 2)), track_conf=np.zeros((0, frames)),
+                bend=no_bend(frames, motion.path.centre, 1.0), depth=(None,) * frames,
+            )
+        )  # fmt: skip
+        doubts.append(f"the motion of {clip.object_names[k]} could not be followed; it goes where its pixels are")
+    return checked, doubts
 
 
 def _follow(clip: Clip, k: int) -> FirstPoses:

@@ -26,6 +26,7 @@ _TURN_WEIGHT = 10.0 / np.deg2rad(3.0) ** 2  # against explaining a guessed shape
 _ANCHOR = 0.1  # of the size: how far the middle of what is seen may lie from where the centre goes
 _JUMP = 0.15  # of the size: change of position against a known velocity that halves a match's score
 _SCRAP = 0.4  # of the largest area: less than this is no ground to leave a known velocity
+_FAR = 1e5  # pixels
 _UNSEEN = 0.6  # of the last velocity goes on per frame in which the object is not seen
 _ON_SURFACE = (0.01, 0.05)  # of the size: how far carried points may lie off measured and guessed depth
 _BEND_GAIN = 0.85  # a bend must bring the median residual below this share of the rigid one's
@@ -244,7 +245,8 @@ class ObjectSolver:
         if self.anchor_weight[s] > 0 and self.anchor_weight[t] > 0:
             moves.append(self.anchor[t] - np.median(moved[surface.grid.inside], axis=0))
         steady = abs(s - t) == 1 and s != self.ref  # the velocity is known
-        hidden = steady and self.surfaces.layer.mask[t].sum() < _SCRAP * self.surfaces.area.max()
+        lost = not bool((np.abs(predicted) < _FAR).all())  # behind the camera or far outside: nothing to search
+        hidden = lost or (steady and self.surfaces.layer.mask[t].sum() < _SCRAP * self.surfaces.area.max())
         for shift in [] if hidden else best_shifts(self.surfaces.layer, surface.grid, t, predicted):
             moves.append(np.array([shift[0] / k[0, 0] * z, shift[1] / k[1, 1] * z, 0.0]) @ pose[:3, :3])
         allowed = self.surfaces.size * (_JUMP if steady else 1.0)

@@ -22,7 +22,7 @@ from genmojo_core.errors import GenmojoError
 from genmojo_core.events import Checkpointed, Event, Failed, Finished, Preview, StageStarted, Warned
 from genmojo_core.optimise import checkpoint, density
 from genmojo_core.optimise.bake import Provenance, bake
-from genmojo_core.optimise.first_poses import first_poses
+from genmojo_core.optimise.first_poses import first_poses, usable_motion
 from genmojo_core.optimise.guard import Guard
 from genmojo_core.optimise.lift import Lifted, lift, track_supervision
 from genmojo_core.optimise.motion import initial_motion
@@ -100,7 +100,9 @@ class Run:
         self._build(lift(self.clip, self.plan, self.config, first_poses(self.clip)), [])
         yield Preview(*self.clock.now(), "first scene", 0, self.reference, self._reference_psnr())
         yield StageStarted(*self.clock.now(), "motion", 0, "following every object through the clip")
-        motions = initial_motion(self.clip)
+        motions, doubts = usable_motion(self.clip, initial_motion(self.clip))
+        for message in doubts:
+            yield Warned(*self.clock.now(), "motion_not_found", message)
         lifted = lift(self.clip, self.plan, self.config, motions)
         for message in lifted.warnings:
             yield Warned(*self.clock.now(), "object_not_visible", message)

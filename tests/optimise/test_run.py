@@ -182,3 +182,23 @@ def test_a_damaged_checkpoint_is_refused(clip: Clip, tmp_path) -> None:
     path.write_bytes(data)
     with pytest.raises(GenmojoError, match="checksum"):
         list(small_run(clip, run_dir=tmp_path, resume=True))
+
+
+def test_an_object_that_cannot_be_followed_does_not_spoil_the_others(clip: Clip, monkeypatch) -> None:
+    from dataclasses import replace
+
+    from genmojo_core.events import Warned
+    from genmojo_core.optimise import run as run_module
+
+    solved = run_module.initial_motion
+
+    def spoiled(given: Clip) -> list:
+        motions = solved(given)
+        return [replace(motions[0], pose=motions[0].pose * np.nan), *motions[1:]]
+
+    monkeypatch.setattr(run_module, "initial_motion", spoiled)
+    run = small_run(clip)
+    events = list(run)
+    assert isinstance(events[-1], Finished)
+    assert [e.code for e in events if isinstance(e, Warned)] == ["motion_not_found"]
+    assert np.isfinite(run.bake().frame(2).means).all()
