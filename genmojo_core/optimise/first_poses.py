@@ -18,6 +18,9 @@ from genmojo_core.optimise.surfaces import Patch
 from genmojo_core.scene.initialise import unproject
 
 
+FARTHEST = 1e3  # poses that move an object by more than this many scene depths are no poses
+
+
 class Moves(Protocol):
     """What the lift needs to know of an object's motion; `ObjectMotion` knows more."""
 
@@ -59,14 +62,15 @@ def first_poses(clip: Clip) -> list[FirstPoses]:
 
 
 def usable_motion(clip: Clip, motions: Sequence[ObjectMotion]) -> tuple[list[ObjectMotion], list[str]]:
-    """The motions, with the rough poses and no tracks in the place of one that is not finite; and a sentence for each.
+    """The motions, with the rough poses and no tracks in the place of one that is not finite or absurd; and a sentence for each.
 
     One object that cannot be followed must not spoil the others (RELIABILITY.md N27).
     """
     checked, doubts = [], []
+    farthest = FARTHEST * max(float(np.median(clip.depth.value)), 1.0)
     for k, motion in enumerate(motions):
         numbers = (motion.pose, motion.confidence, motion.track_xyz, motion.track_xy, motion.track_conf)
-        if all(np.isfinite(part).all() for part in numbers):
+        if all(np.isfinite(part).all() for part in numbers) and np.abs(motion.pose).max() < farthest:
             checked.append(motion)
             continue
         rough, frames = _follow(clip, k), len(clip)
