@@ -17,7 +17,6 @@ from genmojo_core.optimise.motion import ObjectMotion
 from genmojo_core.optimise.surfaces import Patch
 from genmojo_core.scene.initialise import unproject
 
-
 FARTHEST = 1e3  # poses that move an object by more than this many scene depths are no poses
 
 
@@ -62,7 +61,7 @@ def first_poses(clip: Clip) -> list[FirstPoses]:
 
 
 def usable_motion(clip: Clip, motions: Sequence[ObjectMotion]) -> tuple[list[ObjectMotion], list[str]]:
-    """The motions, with the rough poses and no tracks in the place of one that is not finite or absurd; and a sentence for each.
+    """The motions, with rough poses and no tracks in the place of one that is not finite or absurd; a sentence each.
 
     One object that cannot be followed must not spoil the others (RELIABILITY.md N27).
     """
