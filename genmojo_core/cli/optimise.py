@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import signal
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -59,19 +60,23 @@ def run_optimize(args: argparse.Namespace) -> dict[str, Any]:
         raise GenmojoError("argument", "there is no run folder to resume from", "--resume", "give --run-dir")
     check_writable(args.output)
     start = time.monotonic()
-    _compile_meanwhile(config)
-    clip, plan = _prepare(args, config)
+    compiling = _compile_meanwhile(config)
+    try:
+        clip, plan = _prepare(args, config)
+    finally:
+        if compiling is not None:
+            compiling.join()
     job = Job(args.output, args.clip, start, args.frames, args.run_dir, args.resume)
     return optimize_clip(clip, plan, config, job)
 
 
-def _compile_meanwhile(config: RunConfig) -> None:
+def _compile_meanwhile(config: RunConfig) -> threading.Thread | None:
     """Compile the CPU kernels while the clip is read; once compiled they are kept for later runs."""
     if config.device.startswith("cuda"):
-        return
+        return None
     from genmojo_core.render import backend
 
-    backend.warm_up(say)
+    return backend.warm_up(say)
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,7 @@ _ANCHOR = 0.1  # of the size: how far the middle of what is seen may lie from wh
 _JUMP = 0.15  # of the size: change of position against a known velocity that halves a match's score
 _SCRAP = 0.4  # of the largest area: less than this is no ground to leave a known velocity
 _FAR = 1e5  # pixels
+_FARTHEST = 8.0  # times the first distance from the camera
 _UNSEEN = 0.6  # of the last velocity goes on per frame in which the object is not seen
 _ON_SURFACE = (0.01, 0.05)  # of the size: how far carried points may lie off measured and guessed depth
 _BEND_GAIN = 0.85  # a bend must bring the median residual below this share of the rigid one's
@@ -226,7 +227,16 @@ class ObjectSolver:
         for _ in range(2):
             sights = self._sights(path, [(s, t) for s in sources])
             path, _ = solve(path, self._problem(sights), free, known)
+        if self._lost(path, t):  # it stays where it was, and the next frame starts anew
+            return path.moved(t, path.rotation[t - direction], path.position[t - direction])
         return path
+
+    def _lost(self, path: Path, t: int) -> bool:
+        """Whether the pose of frame t is none: not finite, or many times as far from the camera as at first."""
+        cameras = self.surfaces.cameras
+        first = np.linalg.norm(path.position[self.ref] - camera_centre(cameras, self.ref))
+        here = np.linalg.norm(path.position[t] - camera_centre(cameras, t))
+        return not (np.isfinite(path.rotation[t]).all() and here < _FARTHEST * max(float(first), self.surfaces.size))
 
     def _best_start(self, path: Path, s: int, t: int) -> Path:
         """The path as predicted, or shifted to one of the best overlaps, whichever matches frame t best.
