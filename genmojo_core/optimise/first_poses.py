@@ -19,6 +19,8 @@ from genmojo_core.scene.initialise import unproject
 
 FARTHEST = 1e3  # poses that move an object by more than this many scene depths are no poses
 
+SMALLEST = 1e-3  # determinant of a pose; a rigid motion has 1
+
 
 class Moves(Protocol):
     """What the lift needs to know of an object's motion; `ObjectMotion` knows more."""
@@ -69,7 +71,8 @@ def usable_motion(clip: Clip, motions: Sequence[ObjectMotion]) -> tuple[list[Obj
     farthest = FARTHEST * max(float(np.median(clip.depth.value)), 1.0)
     for k, motion in enumerate(motions):
         numbers = (motion.pose, motion.confidence, motion.track_xyz, motion.track_xy, motion.track_conf)
-        if all(np.isfinite(part).all() for part in numbers) and np.abs(motion.pose).max() < farthest:
+        finite = all(np.isfinite(part).all() for part in numbers)
+        if finite and np.abs(motion.pose).max() < farthest and np.linalg.det(motion.pose[:, :3, :3]).min() > SMALLEST:
             checked.append(motion)
             continue
         rough, frames = _follow(clip, k), len(clip)
