@@ -1,0 +1,1 @@
+"""The workspace in which a person watches, questions, compares and takes away a 4D scene."""
