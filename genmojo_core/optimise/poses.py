@@ -45,9 +45,12 @@ class Path:
         return out
 
     def moved(self, t: int, rotation: np.ndarray, position: np.ndarray) -> Path:
-        """The same path with another pose in frame t."""
+        """The same path with another pose in frame t; its rotation is made exact.
+
+        Predictions multiply rotations of earlier frames: a rounding error not taken out grows with every frame.
+        """
         rotations, positions = self.rotation.copy(), self.position.copy()
-        rotations[t], positions[t] = rotation, position
+        rotations[t], positions[t] = exp_rotation(log_rotation(rotation)), position
         return replace(self, rotation=rotations, position=positions)
 
 
@@ -362,7 +365,8 @@ def _stepped(path: Path, step: np.ndarray, free: np.ndarray, slot: np.ndarray, s
     for t in np.nonzero(free)[0]:
         part = step[_six(slot[t])]
         angle = float(np.linalg.norm(part[:3]))
-        rotation[t] = exp_rotation(part[:3] * min(1.0, 0.3 / max(angle, 1e-12))) @ rotation[t]
+        turned = exp_rotation(part[:3] * min(1.0, 0.3 / max(angle, 1e-12))) @ rotation[t]
+        rotation[t] = exp_rotation(log_rotation(turned))
         far = float(np.linalg.norm(part[3:]))
         position[t] = position[t] + part[3:] * min(1.0, 0.5 * size / max(far, 1e-12))
     return replace(path, rotation=rotation, position=position)
