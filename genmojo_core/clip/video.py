@@ -42,15 +42,15 @@ def read(path: Path, span: pictures.Span | None, short_side: int | None) -> pict
     """
     where = str(path)
     try:
-        index = _index(path)
+        index = read_index(path)
         chosen = pictures.select(span, len(index.stamps), where)
-        with _opened(path) as container:
-            stream = _picture_stream(container, where)
+        with opened(path) as container:
+            stream = picture_stream(container, where)
             decoder = _Decoder(index, chosen, where)
             frames, size = pictures.collect(decoder.run(container, stream), len(chosen), short_side)
             aspect = _pixel_aspect(stream, turned=decoder.turned)
     except FFmpegError as error:
-        raise _video_error(error, where) from error
+        raise video_error(error, where) from error
     if not decoder.found:
         raise GenmojoError("video", "none of its frames can be decoded", where, "convert it to H.264 in mp4")
     positions = np.array(decoder.found, np.int64)
@@ -95,10 +95,10 @@ class _Decoder:
             yield f"{self._where} at {(stamp - stamps[0]) * self._index.base:.3f} s", np.ascontiguousarray(picture)
 
 
-def _index(path: Path) -> Index:
+def read_index(path: Path) -> Index:
     """Time stamps by one demux, without decoding."""
-    with _opened(path) as container:
-        stream = _picture_stream(container, str(path))
+    with opened(path) as container:
+        stream = picture_stream(container, str(path))
         packets = [(p.pts, p.is_keyframe) for p in container.demux(stream) if p.size and not p.is_discard]
         base, reordered = float(stream.time_base or 0), stream.codec_context.has_b_frames
         rate = float(stream.average_rate or 24)
@@ -113,7 +113,7 @@ def _index(path: Path) -> Index:
     return Index(np.unique(stamps), keys, base, counted=in_file_order and reordered)
 
 
-def _opened(path: Path) -> av.container.InputContainer:
+def opened(path: Path) -> av.container.InputContainer:
     """The container; the caller closes it. Raises GenmojoError("io") if the file cannot be opened."""
     try:
         return av.open(str(path), metadata_errors="ignore")
@@ -123,7 +123,7 @@ def _opened(path: Path) -> av.container.InputContainer:
         raise GenmojoError("io", f"cannot be read ({error.strerror})", str(path), "check the path") from error
 
 
-def _picture_stream(container: av.container.InputContainer, where: str) -> av.VideoStream:
+def picture_stream(container: av.container.InputContainer, where: str) -> av.VideoStream:
     """The first stream of pictures, with the decoder held to the size limits."""
     if not container.streams.video:
         raise GenmojoError("video", "holds sound but no pictures" if container.streams.audio else "holds no pictures",
@@ -144,7 +144,7 @@ def _pixel_aspect(stream: av.VideoStream, *, turned: bool) -> float | None:
     return 1 / ratio if turned else ratio
 
 
-def _video_error(error: FFmpegError, where: str) -> GenmojoError:
+def video_error(error: FFmpegError, where: str) -> GenmojoError:
     """What FFmpeg says, in one sentence."""
     if isinstance(error, EOFError):
         return GenmojoError("video", "holds no frame", where, "give a video with pictures")
