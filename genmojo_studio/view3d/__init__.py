@@ -1,0 +1,1 @@
+"""The 3D view: snapshots, cameras, renderer, widgets. Knows no panel."""
