@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import threading
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +23,7 @@ class AppState:
     Attributes (change them with `set`, never directly):
         clip: the clip that is open, or None.  clip_path: where it was read from, or None.
         scene_path: the scene file or run folder on show, or None.
-        frame: index into the clip's frames, 0-based, always within 0..frame_count - 1.  frame_count: frames, at least 1.
+        frame: index into the clip's frames, 0-based, always inside.  frame_count: number of frames, at least 1.
         playing: whether time runs.  speed: frames advance at `speed` times the clip's rate, > 0.
         selected_object: id in the clip's masks, or None.  selected_track: index of a point track, or None.
         theme: "dark" or "light".
@@ -75,7 +75,8 @@ class AppState:
             raise AttributeError(f"the state has no {', '.join(unknown)}")
         changed = {name for name, value in values.items() if not _same(self._values[name], value)}
         self._values.update({name: values[name] for name in changed})
-        changed |= self._keep_frame_inside()
+        if self._keep_frame_inside():
+            changed.add("frame")
         if changed:
             self._notify(changed)
 
@@ -109,17 +110,18 @@ class AppState:
             selected_track=None,
         )
 
-    def _keep_frame_inside(self) -> set[str]:
+    def _keep_frame_inside(self) -> bool:
+        """Moves the frame into the clip; True if it had to."""
         inside = min(max(int(self._values["frame"]), 0), max(int(self._values["frame_count"]), 1) - 1)
         if inside == self._values["frame"]:
-            return set()
+            return False
         self._values["frame"] = inside
-        return {"frame"}
+        return True
 
-    def _notify(self, changed: set[str]) -> None:
+    def _notify(self, changed: Collection[str]) -> None:
         for entry in list(self._subscribers):
             find, names = entry
-            if not names & changed:
+            if names.isdisjoint(changed):
                 continue
             callback = find()
             if callback is not None:

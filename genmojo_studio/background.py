@@ -1,0 +1,56 @@
+"""Work that would hold up the window, done on a thread, its result handed back on the UI thread."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Any
+
+from PySide6.QtCore import QObject, Qt, Signal
+
+Done = Callable[[Any], object]
+Failed = Callable[[BaseException], object]
+
+
+class Tasks(QObject):
+    """The tasks of one window or panel: kept while they run, dropped together when it closes."""
+
+    _ended = Signal(object)
+
+    def __init__(self, parent: QObject | None = None, threads: int = 1) -> None:
+        super().__init__(parent)
+        self._pool = ThreadPoolExecutor(threads, thread_name_prefix="genmojo-task")
+        self._waiting: dict[Future[Any], tuple[Done, Failed]] = {}
+        self._ended.connect(self._deliver, Qt.ConnectionType.QueuedConnection)
+
+    def run(self, work: Callable[[], Any], done: Done, failed: Failed) -> None:
+        """Does `work()` on a thread, then calls `done(result)` or `failed(error)` on the UI thread."""
+        future = self._pool.submit(work)
+        self._waiting[future] = (done, failed)
+        future.add_done_callback(self._ended.emit)
+
+    @property
+    def busy(self) -> bool:
+        """True while something runs or waits."""
+        return bool(self._waiting)
+
+    def drop(self) -> None:
+        """Nobody is told of results still to come; what has not begun never does."""
+        for future in list(self._waiting):
+            future.cancel()
+        self._waiting.clear()
+
+    def close(self) -> None:
+        """Drops everything and lets the threads end."""
+        self.drop()
+        self._pool.shutdown(wait=False, cancel_futures=True)
+
+    def _deliver(self, future: Future[Any]) -> None:
+        done, failed = self._waiting.pop(future, (None, None))
+        if done is None or failed is None or future.cancelled():
+            return
+        error = future.exception()
+        if error is None:
+            done(future.result())
+        else:
+            failed(error)
