@@ -1,0 +1,303 @@
+"""The annotation of a clip in memory: objects, point tracks, and what is known of every point in every frame.
+
+Views read it, edits (`tracks/edits.py`) change it, `store/project.py` keeps it. Positions are raster pixels of the
+clip's source. Cells are held frame by frame, so what one frame shows is one slice however long the clip is.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+
+from genmojo_core.errors import GenmojoError
+from genmojo_core.tracks.model import NONE, VISIBLE, PointTracks
+
+KEY, UNCERTAIN, CONFIRMED, SNAPPED, PAINTED = 1, 2, 4, 8, 16  # flags: a person placed it; ...; gave its state
+HUMAN, TRACKER, FLOW, LINEAR, IMPORT, HOLD = 1, 2, 3, 4, 5, 6  # source of a position; 0 for none
+BY_TRACKER, BY_LINE, BY_HOLD = 0, 1, 2  # mode of the segment that begins at a key
+
+ObjectStatus = Literal["candidate", "chosen", "rejected"]
+Review = Literal["draft", "in_progress", "needs_fix", "fixed", "approved", "rejected"]
+REASONS = ("drift", "jump", "swap", "occlusion wrong", "wrong part", "imprecise")  # why a reviewer returns a track
+
+
+@dataclass(frozen=True)
+class ObjectInfo:
+    """An object: `id` of its mask, name, place in the order (1..), whether it is annotated, and why."""
+
+    id: int
+    name: str
+    order: int = 0
+    status: ObjectStatus = "candidate"
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class TrackInfo:
+    """A track: key point `number` (1..5) of an object, who made it, and where its review stands.
+
+    `reason`, `run` (first and last frame, both included) and `note` say what a reviewer found; `rounds` counts how
+    often the track went back to `person`.
+    """
+
+    id: int
+    object: int
+    number: int
+    name: str = ""
+    person: str = ""
+    review: Review = "draft"
+    reviewer: str = ""
+    reason: str = ""
+    run: tuple[int, int] | None = None
+    note: str = ""
+    rounds: int = 0
+    locked: bool = False
+
+
+@dataclass(frozen=True)
+class Cells:
+    """What is known of one track in n frames.
+
+    xy (n, 2) float32 raster pixels (0 where state is NONE), state (n,) uint8, flags (n,) uint8 (KEY | ...), source
+    (n,) uint8, conf (n,) float32 0..1, mode (n,) uint8 of the segment that begins here.
+    """
+
+    xy: np.ndarray
+    state: np.ndarray
+    flags: np.ndarray
+    source: np.ndarray
+    conf: np.ndarray
+    mode: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.state)
+
+    def copy(self) -> Cells:
+        """Arrays of its own."""
+        return Cells(*(np.array(a) for a in self.arrays()))
+
+    def arrays(self) -> tuple[np.ndarray, ...]:
+        """All arrays, in the order of the fields."""
+        return self.xy, self.state, self.flags, self.source, self.conf, self.mode
+
+    @staticmethod
+    def empty(count: int) -> Cells:
+        """Cells that know nothing."""
+        small = [np.zeros(count, np.uint8) for _ in range(4)]
+        return Cells(np.zeros((count, 2), np.float32), small[0], small[1], small[2], np.zeros(count, np.float32),
+                     small[3])  # fmt: skip
+
+
+@dataclass(frozen=True)
+class FrameView:
+    """All tracks with a state in one frame: ids (n,), rows (n,), xy (n, 2), state, flags, conf (n,)."""
+
+    ids: np.ndarray
+    rows: np.ndarray
+    xy: np.ndarray
+    state: np.ndarray
+    flags: np.ndarray
+    conf: np.ndarray
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """What a tracker proposes for one track; never touched by edits.
+
+    tracker: its name. xy (T, 2) float32 raster px, state (T,) uint8, conf (T,) float32 0..1.
+    """
+
+    tracker: str
+    xy: np.ndarray
+    state: np.ndarray
+    conf: np.ndarray
+
+
+@dataclass
+class Touched:
+    """What an edit changed, for views: track ids, object ids, first and last frame (0, -1 if no cell changed)."""
+
+    tracks: set[int] = field(default_factory=set)
+    objects: set[int] = field(default_factory=set)
+    first: int = 0
+    last: int = -1
+
+    def add_frames(self, first: int, last: int) -> None:
+        """Widen the range of frames."""
+        if self.last < self.first:
+            self.first, self.last = first, last
+        else:
+            self.first, self.last = min(self.first, first), max(self.last, last)
+
+
+class Annotation:
+    """Objects and tracks of one clip.
+
+    Args:
+        frames: number of frames T.
+        size: (width, height) of the clip's source.
+    """
+
+    def __init__(self, frames: int, size: tuple[int, int]) -> None:
+        if frames < 1 or min(size) < 1:
+            raise GenmojoError("value", f"{frames} frames of {size[0]} x {size[1]} pixels cannot be annotated")
+        self.frames = frames
+        self.size = size
+        self.objects: dict[int, ObjectInfo] = {}
+        self.tracks: dict[int, TrackInfo] = {}
+        self.meta: dict[str, str] = {}
+        self.proposals: dict[int, dict[str, Proposal]] = {}
+        self.listeners: list[Callable[[Touched], None]] = []
+        self.revision = 0  # grows with every edit done or undone
+        self._rows: dict[int, int] = {}
+        self._ids = np.zeros(0, np.int64)  # row -> track id, -1 where free
+        self._cells = _blank(frames, 0)
+
+    def at(self, t: int) -> FrameView:
+        """Every track that has a state in frame t, in order of rows. Costs the same for any number of frames."""
+        rows = np.flatnonzero(self._cells.state[t])
+        c = self._cells
+        return FrameView(self._ids[rows], rows, c.xy[t, rows], c.state[t, rows], c.flags[t, rows], c.conf[t, rows])
+
+    def track(self, track: int) -> Cells:
+        """All T frames of a track: views, not to be written to."""
+        row = self.row(track)
+        return Cells(*(a[:, row] for a in self._cells.arrays()))
+
+    def cells(self, track: int, frames: np.ndarray) -> Cells:
+        """Copies of some frames of a track."""
+        row = self.row(track)
+        return Cells(*(a[frames, row] for a in self._cells.arrays()))
+
+    def window(self, tracks: list[int], first: int, end: int) -> tuple[np.ndarray, np.ndarray]:
+        """xy (end - first, n, 2) and state (end - first, n) of some tracks, for trails and the dope sheet."""
+        rows = [self.row(track) for track in tracks]
+        return self._cells.xy[first:end, rows], self._cells.state[first:end, rows]
+
+    def row(self, track: int) -> int:
+        """Row of a track. Raises GenmojoError("argument") if there is none of that id."""
+        if track not in self._rows:
+            raise GenmojoError("argument", f"there is no track {track}")
+        return self._rows[track]
+
+    def keys(self, track: int) -> np.ndarray:
+        """Frames (n,) in which a person placed the point, rising."""
+        return np.flatnonzero(self._cells.flags[:, self.row(track)] & KEY)
+
+    def segment(self, track: int, t: int) -> tuple[int | None, int | None]:
+        """The keys around frame t: the last at or before it, the first after it; None where there is none."""
+        keys = self.keys(track)
+        at = int(np.searchsorted(keys, t, side="right"))
+        return int(keys[at - 1]) if at else None, int(keys[at]) if at < len(keys) else None
+
+    def tracks_of(self, object_id: int) -> list[TrackInfo]:
+        """Tracks of an object by their number."""
+        return sorted((i for i in self.tracks.values() if i.object == object_id), key=lambda i: (i.number, i.id))
+
+    def chosen_objects(self) -> list[ObjectInfo]:
+        """Objects that are annotated, in their order."""
+        return sorted((o for o in self.objects.values() if o.status == "chosen"), key=lambda o: (o.order, o.id))
+
+    def new_track_id(self) -> int:
+        """An id no track has; ids of deleted tracks may come back only with them."""
+        return max([*self.tracks, int(self.meta.get("last_track", "0"))], default=0) + 1
+
+    def propose(self, track: int, proposal: Proposal) -> None:
+        """Keep a tracker's proposal beside the track; the track itself is not changed (see `edits.accept`)."""
+        self.row(track)
+        self.proposals.setdefault(track, {})[proposal.tracker] = proposal
+
+    def to_tracks(self, tracks: list[int] | None = None) -> PointTracks:
+        """Tracks as `PointTracks`, by default all, ordered by object, number and id; unknown positions are NaN."""
+        if tracks is None:
+            place = {o.id: n for n, o in enumerate(self.chosen_objects())}
+            infos = sorted(self.tracks.values(), key=lambda i: (place.get(i.object, len(place)), i.number, i.id))
+            tracks = [i.id for i in infos]
+        rows = [self.row(track) for track in tracks]
+        c = Cells(*(np.moveaxis(a[:, rows], 0, 1).copy() for a in self._cells.arrays()))
+        xy = np.where((c.state == NONE)[..., None], np.float32(np.nan), c.xy)
+        owner = np.array([self.tracks[track].object for track in tracks], np.int64)
+        return PointTracks(xy, c.state, owner, self.size, None, c.conf, c.flags, c.source)
+
+    def digest(self) -> str:
+        """SHA-256 over everything an edit can change; equal for equal annotations."""
+        total = hashlib.sha256(repr((self.frames, self.size, sorted(self.meta.items()))).encode())
+        for table in (self.objects, self.tracks):
+            for key in sorted(table):
+                total.update(repr(asdict(table[key])).encode())  # type: ignore[index]
+        for track in sorted(self.tracks):
+            for array in self.track(track).arrays():
+                total.update(np.ascontiguousarray(array).tobytes())
+        return total.hexdigest()
+
+    # Used by edits and by the project file only.
+
+    def write_cells(self, track: int, frames: np.ndarray, cells: Cells) -> None:
+        """Overwrite some frames of a track."""
+        row = self.row(track)
+        for mine, theirs in zip(self._cells.arrays(), cells.arrays(), strict=True):
+            mine[frames, row] = theirs
+
+    def put_object(self, object_id: int, info: ObjectInfo | None) -> None:
+        """Set or remove an object."""
+        _put(self.objects, object_id, info)
+
+    def put_track(self, track: int, info: TrackInfo | None) -> None:
+        """Set or remove a track's description; a removed one loses its row, a new one begins without any state."""
+        if info is None and track in self._rows:
+            row = self._rows.pop(track)
+            for array in self._cells.arrays():
+                array[:, row] = 0
+            self._ids[row] = -1
+        elif info is not None and track not in self._rows:
+            free = np.flatnonzero(self._ids < 0)
+            if not len(free):
+                self.reserve(max(32, 2 * len(self._ids)))
+                free = np.flatnonzero(self._ids < 0)
+            self._rows[track] = int(free[0])
+            self._ids[free[0]] = track
+        _put(self.tracks, track, info)
+
+    def put_meta(self, key: str, value: str | None) -> None:
+        """Set or remove a note about the whole annotation."""
+        _put(self.meta, key, value)
+
+    def reserve(self, count: int) -> None:
+        """Make room for `count` tracks in all, so that adding many does not copy often."""
+        if count <= len(self._ids):
+            return
+        grown = _blank(self.frames, count)
+        for old, new in zip(self._cells.arrays(), grown.arrays(), strict=True):
+            new[:, : len(self._ids)] = old
+        self._cells = grown
+        self._ids = np.concatenate([self._ids, np.full(count - len(self._ids), -1, np.int64)])
+
+    def notify(self, touched: Touched) -> None:
+        """Count the change and tell every listener."""
+        self.revision += 1
+        for listener in tuple(self.listeners):
+            listener(touched)
+
+
+def visible_inside(cells: Cells, size: tuple[int, int]) -> np.ndarray:  # (n,) bool
+    """Where a point is visible and inside the picture."""
+    return (cells.state == VISIBLE) & (cells.xy >= 0).all(axis=1) & (cells.xy <= np.array(size)).all(axis=1)
+
+
+def _blank(frames: int, count: int) -> Cells:
+    """Cells (T, N): untouched zeros cost no memory until they are written."""
+    small = [np.zeros((frames, count), np.uint8) for _ in range(4)]
+    return Cells(np.zeros((frames, count, 2), np.float32), small[0], small[1], small[2],
+                 np.zeros((frames, count), np.float32), small[3])  # fmt: skip
+
+
+def _put(table: dict[Any, Any], key: Any, value: Any) -> None:
+    """Set, or remove with None."""
+    if value is None:
+        table.pop(key, None)
+    else:
+        table[key] = value

@@ -1,0 +1,146 @@
+"""Edits of objects and whole tracks: make, delete, rename, swap, split, join, and the steps of a review."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from genmojo_core.errors import GenmojoError
+from genmojo_core.tracks.annotation import REASONS, Annotation, Cells, ObjectInfo, TrackInfo
+from genmojo_core.tracks.edits import CellsChange, Edit, MetaChange, ObjectChange, TrackChange, cells_change
+from genmojo_core.tracks.model import NONE
+
+
+def put_objects(annotation: Annotation, objects: list[ObjectInfo], title: str = "Set objects") -> Edit:
+    """Make objects, or give existing ones (same id) another description."""
+    changes = tuple(ObjectChange(o.id, annotation.objects.get(o.id), o) for o in objects
+                    if annotation.objects.get(o.id) != o)  # fmt: skip
+    return Edit("objects", title, changes)
+
+
+def add_track(annotation: Annotation, object_id: int, number: int, person: str = "", name: str = "") -> Edit:
+    """An empty track for key point `number` of an object; its id is `edit.track`.
+
+    Raises GenmojoError("argument") if the object already has that point.
+    """
+    if object_id and object_id not in annotation.objects:
+        raise GenmojoError("argument", f"there is no object {object_id}")
+    if any(i.number == number for i in annotation.tracks_of(object_id)):
+        raise GenmojoError("argument", f"object {object_id} already has a point {number}")
+    track = annotation.new_track_id()
+    info = TrackInfo(track, object_id, number, name, person)
+    last = MetaChange("last_track", annotation.meta.get("last_track"), str(track))
+    return Edit("track", f"Add point {number}", (last, TrackChange(track, None, info)), 0, track)
+
+
+def delete_track(annotation: Annotation, track: int) -> Edit:
+    """Remove a track with all its cells; undo brings them back."""
+    info = _unlocked(annotation, track)
+    cells = cells_change(annotation, track, np.arange(annotation.frames), Cells.empty(annotation.frames))
+    gone = TrackChange(track, info, None)
+    return Edit("delete", f"Delete point {info.number}", (gone,) if cells is None else (cells, gone), 0, track)
+
+
+def update_track(annotation: Annotation, track: int, title: str = "", frame: int | None = None, **fields: Any) -> Edit:
+    """Give a track another name, number, person, lock, ... (fields of TrackInfo)."""
+    info = annotation.tracks[track] if track in annotation.tracks else _unlocked(annotation, track)
+    new = replace(info, **fields)
+    changes = (TrackChange(track, info, new),) if new != info else ()
+    return Edit("track", title or f"Change point {info.number}", changes, frame, track)
+
+
+def needs_fix(annotation: Annotation, track: int, reason: str, run: tuple[int, int], reviewer: str, note: str) -> Edit:
+    """A reviewer returns a track to its annotator with a reason of REASONS and the frames (first, last) concerned."""
+    if reason not in REASONS:
+        raise GenmojoError("argument", f"'{reason}' is no reason", hint=f"use {', '.join(REASONS)}")
+    rounds = annotation.tracks[track].rounds + 1
+    return update_track(annotation, track, f"Needs fix: {reason}", run[0], review="needs_fix", reason=reason, run=run,
+                        reviewer=reviewer, note=note, rounds=rounds, locked=False)  # fmt: skip
+
+
+def fixed(annotation: Annotation, track: int) -> Edit:
+    """The annotator answers: the spot was worked on."""
+    run = annotation.tracks[track].run
+    return update_track(annotation, track, "Fixed", run[0] if run else 0, review="fixed")
+
+
+def approve(annotation: Annotation, track: int, reviewer: str) -> Edit:
+    """A reviewer is content; the track is locked. Every frame must have a state.
+
+    Raises GenmojoError("argument") where one has not.
+    """
+    blank = np.flatnonzero(annotation.track(track).state == NONE)
+    if len(blank):
+        raise GenmojoError("argument", f"track {track} says nothing about frame {blank[0]} and {len(blank) - 1} others",
+                           hint="annotate them first")  # fmt: skip
+    return update_track(annotation, track, "Approve", 0, review="approved", reviewer=reviewer, reason="", run=None,
+                        note="", locked=True)  # fmt: skip
+
+
+def reject(annotation: Annotation, track: int, reviewer: str, note: str) -> Edit:
+    """A reviewer gives a track up."""
+    return update_track(annotation, track, "Reject", 0, review="rejected", reviewer=reviewer, note=note)
+
+
+def swap(annotation: Annotation, one: int, other: int, first: int, last: int) -> Edit:
+    """Two tracks change places in frames first..last, keys included; either may be empty there."""
+    frames = np.arange(first, last + 1)
+    a, b = (_checked_cells(annotation, track, first, last) for track in (one, other))
+    changes = [cells_change(annotation, one, frames, b), cells_change(annotation, other, frames, a)]
+    title = f"Swap {_number(annotation, one)} and {_number(annotation, other)}"
+    return Edit("swap", title, tuple(c for c in changes if c is not None), first, one)
+
+
+def split(annotation: Annotation, track: int, t: int, number: int) -> Edit:
+    """Frames t and after go to a new track with that number of the same object; its id is `edit.track`."""
+    info = _unlocked(annotation, track)
+    made = add_track(annotation, info.object, number, info.person)
+    tail = _checked_cells(annotation, track, t, annotation.frames - 1)
+    frames = np.arange(t, annotation.frames)
+    away = cells_change(annotation, track, frames, Cells.empty(len(frames)))
+    if away is None:
+        raise GenmojoError("argument", f"track {track} has nothing from frame {t} on")
+    moved = _onto_empty(int(made.track or 0), frames, tail)
+    return Edit("split", f"Split point {info.number} at frame {t}", (*made.changes, away, moved), t, made.track)
+
+
+def join_tracks(annotation: Annotation, one: int, other: int) -> Edit:
+    """`one` takes what `other` knows where it knows nothing itself; `other` is deleted."""
+    mine, theirs = annotation.track(one), annotation.track(other)
+    frames = np.flatnonzero((mine.state == NONE) & (theirs.state != NONE))
+    taken = cells_change(annotation, one, frames, annotation.cells(other, frames))
+    _unlocked(annotation, one)
+    gone = delete_track(annotation, other)
+    changes = gone.changes if taken is None else (taken, *gone.changes)
+    return Edit("join", f"Join {_number(annotation, one)} and {_number(annotation, other)}", changes,
+                int(frames[0]) if len(frames) else 0, one)  # fmt: skip
+
+
+def _onto_empty(track: int, frames: np.ndarray, cells: Cells) -> CellsChange:
+    """The change that fills a track not made yet."""
+
+    return CellsChange(track, frames.astype(np.int32), Cells.empty(len(frames)), cells)
+
+
+def _checked_cells(annotation: Annotation, track: int, first: int, last: int) -> Cells:
+    """Copies of frames first..last of a track that is not locked."""
+    _unlocked(annotation, track)
+    if not 0 <= first <= last < annotation.frames:
+        raise GenmojoError("argument", f"frames {first} to {last} are not in 0 to {annotation.frames - 1}")
+    return annotation.cells(track, np.arange(first, last + 1))
+
+
+def _unlocked(annotation: Annotation, track: int) -> TrackInfo:
+    """A track's description. Raises GenmojoError("argument") if it is missing or locked."""
+    annotation.row(track)
+    info = annotation.tracks[track]
+    if info.locked:
+        raise GenmojoError("argument", f"track {track} is locked", hint="unlock it first")
+    return info
+
+
+def _number(annotation: Annotation, track: int) -> str:
+    """ "point 2"."""
+    return f"point {annotation.tracks[track].number}"
