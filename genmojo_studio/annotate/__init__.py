@@ -1,0 +1,1 @@
+"""The point-track annotator: four steps from masks to reviewed tracks."""

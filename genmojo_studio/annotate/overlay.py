@@ -1,0 +1,232 @@
+"""Everything drawn over a frame, by one painter: masks, trails, points, arrows to points outside the view.
+
+Colours and glyphs are those of `colours.py`. Work per frame depends on what is shown, not on how long the clip is; of
+thousands of tracks only `DETAILED` get glyphs and trails, the rest are dots.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import cv2
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
+from PySide6.QtGui import QBrush, QColor, QPainter, QPainterPath, QPen, QPolygonF
+
+from genmojo_core.tracks.annotation import CONFIRMED, KEY, UNCERTAIN
+from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
+from genmojo_studio.annotate.colours import glyph, object_colour, point_colour
+from genmojo_studio.annotate.mapping import Mapping
+
+DETAILED = 64
+RADIUS = 6.0
+_DARK = QColor(12, 14, 18)
+
+
+@dataclass(frozen=True)
+class Mark:
+    """One point as shown: raster xy, state, flags, place of its object in the list, number of the point (both from 0).
+
+    suspicion is 0..1, `proposed` a place that nobody accepted yet.
+    """
+
+    track: int
+    xy: tuple[float, float]
+    state: int
+    flags: int
+    place: int
+    point: int
+    suspicion: float = 0.0
+
+
+@dataclass
+class Picture:
+    """What the overlay shows of one frame.
+
+    Args:
+        marks: points with glyphs, the selected one among them. dots: (n, 2) raster positions of all other points.
+        trails: per mark, raster xy (k, 2), state (k,) and index in them of the frame shown.
+        contours: per object id, its place in the list and its outlines as closed (m, 2) raster polygons.
+        mask_mode: 0 off, 1 outline, 2 filled. selected: track id or None.
+    """
+
+    marks: list[Mark] = field(default_factory=list)
+    dots: np.ndarray = field(default_factory=lambda: np.zeros((0, 2), np.float32))
+    trails: list[tuple[Mark, np.ndarray, np.ndarray, int]] = field(default_factory=list)
+    contours: dict[int, tuple[int, list[np.ndarray]]] = field(default_factory=dict)
+    mask_mode: int = 1
+    selected: int | None = None
+    selected_object: int | None = None
+
+
+def contours_of(labels: np.ndarray, places: dict[int, int]) -> dict[int, tuple[int, list[np.ndarray]]]:
+    """Outlines of the objects in `places` (id -> place) in a mask (H, W): id -> place and closed raster polygons."""
+    found = {}
+    for object_id, place in places.items():
+        mask = (labels == object_id).astype(np.uint8)
+        x, y, w, h = cv2.boundingRect(mask)
+        if not w:
+            continue
+        lines, _ = cv2.findContours(mask[y : y + h, x : x + w], cv2.RETR_CCOMP, cv2.CHAIN_APPROX_SIMPLE)
+        shift = np.array([x + 0.5, y + 0.5], np.float32)
+        found[object_id] = (place, [line[:, 0].astype(np.float32) + shift for line in lines if len(line) > 2])
+    return found
+
+
+def draw(painter: QPainter, picture: Picture, mapping: Mapping, view: QRectF) -> None:
+    """Draw everything; `view` is the visible part of the widget."""
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, on=True)
+    if picture.mask_mode:
+        _masks(painter, picture, mapping)
+    _trails(painter, picture, mapping)
+    if len(picture.dots):
+        _dots(painter, picture.dots, mapping)
+    for mark in picture.marks:
+        if mark.state == NONE:
+            continue
+        centre = QPointF(*mapping.to_widget(*mark.xy))
+        if view.contains(centre):
+            draw_mark(painter, mark, centre, selected=mark.track == picture.selected)
+        elif mark.state == VISIBLE:
+            _arrow(painter, mark, centre, view)
+
+
+def draw_mark(painter: QPainter, mark: Mark, centre: QPointF, *, selected: bool = False, radius: float = RADIUS) -> None:
+    """A point's glyph: filled where visible, hollow and dashed where occluded, crossed where out of view."""
+    colour = QColor(*point_colour(mark.place, mark.point))
+    path = glyph_path(mark.point, radius).translated(centre)
+    hidden = mark.state in (OCCLUDED, OUT_OF_VIEW)
+    painter.setPen(QPen(_DARK, 3.2))
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.drawPath(path)
+    pen = QPen(colour if hidden else QColor(255, 255, 255), 1.6)
+    if mark.state == OCCLUDED:
+        pen.setDashPattern([1.6, 1.4])
+    painter.setPen(pen)
+    fill = QColor(colour)
+    fill.setAlpha(0 if hidden else 175)
+    painter.setBrush(QBrush(fill))
+    painter.drawPath(path)
+    if mark.state == OUT_OF_VIEW:
+        r = radius * 0.6
+        painter.drawLines([QLineF(centre.x() - r, centre.y() - r, centre.x() + r, centre.y() + r),
+                           QLineF(centre.x() - r, centre.y() + r, centre.x() + r, centre.y() - r)])  # fmt: skip
+    _badges(painter, mark, centre, radius)
+    if selected:
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.setPen(QPen(_DARK, 3.6))
+        painter.drawEllipse(centre, radius * 2.1, radius * 2.1)
+        painter.setPen(QPen(colour.lighter(125), 1.8))
+        painter.drawEllipse(centre, radius * 2.1, radius * 2.1)
+    painter.setPen(QPen(_DARK, 1))
+    at = centre + QPointF(radius * 1.3, -radius * 1.1)
+    text = str(mark.point + 1)
+    for shift in ((-1, 0), (1, 0), (0, -1), (0, 1)):
+        painter.drawText(at + QPointF(*shift), text)
+    painter.setPen(colour.lighter(130))
+    painter.drawText(at, text)
+
+
+def glyph_path(point: int, radius: float) -> QPainterPath:
+    """The glyph of a point (from 0) around the origin."""
+    path = QPainterPath()
+    name = glyph(point)
+    if name == "circle":
+        path.addEllipse(QPointF(0, 0), radius, radius)
+        return path
+    if name == "square":
+        path.addRect(QRectF(-radius * 0.85, -radius * 0.85, radius * 1.7, radius * 1.7))
+        return path
+    corners = {"triangle": 3, "diamond": 4, "star": 10}[name]
+    points = []
+    for k in range(corners):
+        reach = radius * (1.15 if name != "star" or k % 2 == 0 else 0.5)
+        angle = -math.pi / 2 + 2 * math.pi * k / corners
+        points.append(QPointF(reach * math.cos(angle), reach * math.sin(angle)))
+    path.addPolygon(QPolygonF(points))
+    path.closeSubpath()
+    return path
+
+
+def _badges(painter: QPainter, mark: Mark, centre: QPointF, radius: float) -> None:
+    """White middle: a person's key. Tick below: confirmed. Question mark: uncertain. Red ring: suspicious."""
+    if mark.flags & KEY:
+        painter.setPen(QPen(_DARK, 1))
+        painter.setBrush(QColor(255, 255, 255))
+        painter.drawEllipse(centre, 2.2, 2.2)
+    if mark.flags & CONFIRMED and not mark.flags & KEY:
+        x, y = centre.x(), centre.y() + radius * 1.6
+        for colour, width in ((_DARK, 3.4), (QColor(150, 235, 170), 1.6)):
+            painter.setPen(QPen(colour, width))
+            painter.drawLines([QLineF(x - 3, y, x - 1, y + 2), QLineF(x - 1, y + 2, x + 3, y - 2)])
+    if mark.flags & UNCERTAIN:
+        painter.setPen(QPen(QColor(255, 235, 130), 1))
+        painter.drawText(centre + QPointF(-radius * 2.3, radius * 0.7), "?")
+    if mark.suspicion >= 0.5:
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.setPen(QPen(QColor(255, 60, 60), 2.0))
+        painter.drawArc(QRectF(centre.x() - radius * 1.6, centre.y() - radius * 1.6, radius * 3.2, radius * 3.2),
+                        45 * 16, 270 * 16)  # fmt: skip
+
+
+def _masks(painter: QPainter, picture: Picture, mapping: Mapping) -> None:
+    for object_id, (place, lines) in picture.contours.items():
+        path = QPainterPath()
+        for line in lines:
+            path.addPolygon(pg.functions.arrayToQPolygonF(*_mapped(line, mapping)))
+            path.closeSubpath()
+        colour = QColor(*object_colour(place))
+        chosen = object_id == picture.selected_object
+        painter.setPen(QPen(colour, 2.0 if chosen else 1.2))
+        fill = QColor(colour)
+        fill.setAlpha(70 if picture.mask_mode == 2 else 0)
+        painter.setBrush(QBrush(fill) if picture.mask_mode == 2 else Qt.BrushStyle.NoBrush)
+        painter.drawPath(path)
+
+
+def _trails(painter: QPainter, picture: Picture, mapping: Mapping) -> None:
+    """Past fading in, future thinner; stretches without sight are dashed."""
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    for mark, xy, state, now in picture.trails:
+        x, y = _mapped(xy, mapping)
+        colour = QColor(*point_colour(mark.place, mark.point))
+        for first, end, alpha, width in ((0, now + 1, 200, 1.8), (now, len(x), 110, 1.2)):
+            if end - first < 2:
+                continue
+            seen = state[first:end] == VISIBLE
+            known = state[first:end] != NONE
+            both, linked = seen[:-1] & seen[1:], known[:-1] & known[1:]
+            colour.setAlpha(alpha)
+            for choice, style in ((both, Qt.PenStyle.SolidLine), (linked & ~both, Qt.PenStyle.DashLine)):
+                if choice.any():
+                    connect = np.append(choice, False)  # noqa: FBT003
+                    painter.setPen(QPen(colour, width, style))
+                    painter.drawPath(pg.functions.arrayToQPath(x[first:end], y[first:end], connect, finiteCheck=False))
+
+
+def _dots(painter: QPainter, xy: np.ndarray, mapping: Mapping) -> None:
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, on=False)
+    painter.setPen(QPen(QColor(235, 235, 235), 3))
+    painter.drawPoints(pg.functions.arrayToQPolygonF(*_mapped(xy, mapping)))
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, on=True)
+
+
+def _arrow(painter: QPainter, mark: Mark, target: QPointF, view: QRectF) -> None:
+    """A triangle at the rim of the view that points to a point outside it."""
+    inner = view.adjusted(14, 14, -14, -14)
+    middle = inner.center()
+    dx, dy = target.x() - middle.x(), target.y() - middle.y()
+    share = min(inner.width() / 2 / max(abs(dx), 1e-6), inner.height() / 2 / max(abs(dy), 1e-6))
+    tip, angle = QPointF(middle.x() + dx * share, middle.y() + dy * share), math.atan2(dy, dx)
+    corners = [tip + QPointF(r * math.cos(angle + a), r * math.sin(angle + a)) for a, r in ((0, 10), (2.5, 10), (-2.5, 10))]
+    painter.setPen(QPen(_DARK, 2))
+    painter.setBrush(QColor(*point_colour(mark.place, mark.point)))
+    painter.drawPolygon(QPolygonF(corners))
+
+
+def _mapped(xy: np.ndarray, mapping: Mapping) -> tuple[np.ndarray, np.ndarray]:
+    """Widget x and y of raster positions (n, 2), as float64 rows of their own."""
+    points = np.asarray(xy, np.float64)
+    return points[:, 0] * mapping.zoom + mapping.dx, points[:, 1] * mapping.zoom + mapping.dy
