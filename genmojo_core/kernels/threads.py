@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from itertools import count as counter
 
 _state: dict[str, ThreadPoolExecutor | int | None] = {"pool": None, "threads": 0}
 
@@ -31,20 +32,38 @@ def get_threads() -> int:
 
 
 def run_jobs(job: Callable[[int], object], count: int) -> None:
-    """Call job(0), ..., job(count - 1), on the pool where there is more than one job and one thread."""
-    threads = get_threads()
-    if threads == 1 or count <= 1:
-        for index in range(count):
+    """Call job(0), ..., job(count - 1) in any order, on the calling thread and on helpers where there is work for them.
+
+    Every thread takes the next number as soon as it is free, so one that wakes late costs nothing but its own share.
+    Raises what a job raised, after all threads have stopped.
+    """
+    helpers = min(get_threads(), count) - 1
+    numbers = counter()
+
+    def work() -> None:
+        while (index := next(numbers)) < count:
             job(index)
-        return
-    pool = _state["pool"]
-    if not isinstance(pool, ThreadPoolExecutor):
-        pool = ThreadPoolExecutor(threads, thread_name_prefix="genmojo-raster")
-        _state["pool"] = pool
-    for _ in pool.map(job, range(count)):
-        pass
+
+    asked = [_pool().submit(work) for _ in range(helpers)]
+    try:
+        work()
+    finally:
+        started = [one for one in asked if not one.cancel()]
+        for one in started:
+            one.exception()
+    for one in started:
+        one.result()
 
 
 def run_ranges(kernel: Callable[[int, int], object], size: int, chunk: int) -> None:
     """Call kernel(start, stop) over 0..size-1 in pieces of `chunk` (the same pieces for any number of threads)."""
     run_jobs(lambda index: kernel(index * chunk, min((index + 1) * chunk, size)), -(-size // chunk))
+
+
+def _pool() -> ThreadPoolExecutor:
+    """The helpers: all threads but the calling one."""
+    pool = _state["pool"]
+    if not isinstance(pool, ThreadPoolExecutor):
+        pool = ThreadPoolExecutor(max(get_threads() - 1, 1), thread_name_prefix="genmojo-kernel")
+        _state["pool"] = pool
+    return pool
