@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from genmojo_core.optimise.poses import Path, Problem, Sight, residual_rows, robust_weights
+from genmojo_core.optimise.pose_solver import residual_rows, robust_weights
+from genmojo_core.optimise.poses import Path, Problem, Sight
 
 _TERMS = 10
 _ROUNDS = 4

@@ -15,7 +15,9 @@ from genmojo_core.clip.cameras import Cameras
 from genmojo_core.clip.clip import Channel, Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.optimise.bend import Bend, carried
-from genmojo_core.optimise.motion_solver import Found, ObjectSolver
+from genmojo_core.optimise.deadline import NO_DEADLINE, Deadline
+from genmojo_core.optimise.keyframes import follow
+from genmojo_core.optimise.motion_solver import Found
 from genmojo_core.optimise.poses import Path, camera_centre, project, rays
 from genmojo_core.optimise.surfaces import ObjectSurfaces, Patch, object_surfaces
 from genmojo_core.trackers.contours import whole_area
@@ -41,6 +43,7 @@ class ObjectMotion:
         path: the poses as rotation about the object's centre and place of the centre.
         bend: smooth non-rigid displacements before the pose; zero where there is no evidence.
         depth: T windows with the object's depth, improved by the motion where depth was a guess; None where not seen.
+        hurried: the deadline came before the end; frames not reached are only where the object's pixels are.
     """
 
     ref_frame: int
@@ -53,18 +56,22 @@ class ObjectMotion:
     path: Path
     bend: Bend
     depth: tuple[Patch | None, ...]
+    hurried: bool = False
 
     def points_at(self, t: int, points: np.ndarray) -> np.ndarray:  # (..., 3) world at ref_frame -> at frame t
         """Points on the object at the reference frame, bent and posed as in frame t."""
         return carried(self.path, self.bend, self.ref_frame, t, points)
 
 
-def initial_motion(clip: Clip, ref_frames: Sequence[int] | None = None) -> list[ObjectMotion]:
+def initial_motion(
+    clip: Clip, ref_frames: Sequence[int] | None = None, deadline: Deadline = NO_DEADLINE
+) -> list[ObjectMotion]:
     """Motion and point tracks of every object of a complete clip.
 
     Args:
         clip: with masks, depth and cameras (given or estimated).
         ref_frames: reference frame per object; by default `default_reference`.
+        deadline: every object gets an equal part of the time left; after its part it is only followed roughly.
 
     Returns one motion per object, in the order of `clip.object_ids`. Raises GenmojoError("schema") if a channel is
     missing.
@@ -75,7 +82,7 @@ def initial_motion(clip: Clip, ref_frames: Sequence[int] | None = None) -> list[
     for k in range(clip.objects):
         surfaces = object_surfaces(clip, k, shade)
         ref = default_reference(surfaces.layer) if ref_frames is None else int(ref_frames[k])
-        motions.append(_motion(ObjectSolver(surfaces, ref, matcher).run()))
+        motions.append(_motion(follow(surfaces, ref, matcher, deadline.part(1.0 / (clip.objects - k)))))
     return motions
 
 
@@ -151,7 +158,7 @@ def _motion(found: Found) -> ObjectMotion:
         conf[:, t] = found.confidence[t] * np.where(_seen(surfaces, t, xy[:, t], world), 1.0, _HIDDEN)
     depth = tuple(None if s is None else s.patch for s in surfaces.surfaces)
     return ObjectMotion(path.ref, path.matrices(), found.confidence, xyz, xy, conf, found.residual_px, path, bend,
-                        depth)  # fmt: skip
+                        depth, found.hurried)  # fmt: skip
 
 
 def _track_points(surfaces: ObjectSurfaces, path: Path, bend: Bend) -> np.ndarray:  # (P, 3) world at the reference

@@ -7,12 +7,15 @@ left is explained by a smooth bend if that has evidence.
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass
 
 import numpy as np
 
 from genmojo_core.optimise.bend import Bend, carried, fit_bend, no_bend
-from genmojo_core.optimise.poses import Path, Problem, Sight, camera_centre, project, rays, solve, still_path
+from genmojo_core.optimise.deadline import Deadline
+from genmojo_core.optimise.pose_solver import solve
+from genmojo_core.optimise.poses import Path, Problem, Sight, camera_centre, project, rays, still_path
 from genmojo_core.optimise.surfaces import ObjectSurfaces, Surface
 from genmojo_core.trackers.contours import meet, outline_of, spread, whole_area
 from genmojo_core.trackers.search import best_shifts
@@ -30,6 +33,8 @@ _FAR = 1e5  # pixels
 _FARTHEST = 8.0  # times the first distance from the camera
 _UNSEEN = 0.6  # of the last velocity goes on per frame in which the object is not seen
 _ON_SURFACE = (0.01, 0.05)  # of the size: how far carried points may lie off measured and guessed depth
+_SOLVE_COST = 4.0  # seconds of a joint solve with its links, in seconds of the links at half resolution
+_ROUGH = 0.3  # confidence of a pose that is only where the pixels are
 _BEND_GAIN = 0.85  # a bend must bring the median residual below this share of the rigid one's
 
 
@@ -41,6 +46,7 @@ class Found:
         surfaces: with depth improved by the motion where it was a guess.
         path: rigid poses. bend: what is left.
         confidence: (T,) 0..1. residual_px: median distance of matches to the rigid motion.
+        hurried: the deadline came first; what was not done is only roughly right.
     """
 
     surfaces: ObjectSurfaces
@@ -48,17 +54,19 @@ class Found:
     bend: Bend
     confidence: np.ndarray
     residual_px: float
+    hurried: bool = False
 
 
 class ObjectSolver:
-    """The work for one object; `run` does all of it."""
+    """The work for one object; `run` does all of it, `refine` one frame of a path that is nearly right."""
 
-    def __init__(self, surfaces: ObjectSurfaces, ref: int, matcher: Matcher) -> None:
-        self.surfaces, self.matcher, self.ref = surfaces, matcher, ref
+    def __init__(self, surfaces: ObjectSurfaces, ref: int, matcher: Matcher, deadline: Deadline) -> None:
+        self.surfaces, self.matcher, self.ref, self.deadline = surfaces, matcher, ref, deadline
         self.frames = len(surfaces.surfaces)
         self.seen = np.array([s is not None for s in surfaces.surfaces])
         if not self.seen[ref] and self.seen.any():
             self.ref = int(np.argmax(self.seen))
+        self.links, self.linking = 0, 0.0  # how many were made, in how many seconds
         self.outlines = [outline_of(surfaces.layer, t) for t in range(self.frames)]
         self._choose_points()
         self._choose_anchor()
@@ -68,19 +76,33 @@ class ObjectSolver:
         if not self.seen.any():
             path = still_path(self.frames, np.zeros(3), self.ref)
             return Found(self.surfaces, path, no_bend(self.frames, np.zeros(3), 1.0), np.zeros(self.frames), 0.0)
-        path = self._outward()
-        sights: list[Sight] = []
+        path, sights, rough = self._outward()
+        hurried = bool(rough.any())
         every = np.ones(self.frames, bool)
         for last in (False, True):
-            sights = self._sights(path, self._pairs(_LINKS if last else _FIRST_LINKS, both=last), fine=last)
-            path, self.depth = solve(path, self._problem(sights), every, every, rounds=8)
-            self._keep_shape()
+            pairs = self._pairs(_LINKS if last else _FIRST_LINKS, both=last)
+            hurried = hurried or not self._affordable(pairs)
+            if not hurried:
+                sights = self._sights(path, pairs, fine=last)
+                path, self.depth = solve(path, self._problem(sights), every, every, rounds=8)
+                self._keep_shape()
         rigid = no_bend(self.frames, path.centre, self.surfaces.size)
-        bend = fit_bend(path, self._problem(sights))
+        bend = rigid if hurried else fit_bend(path, self._problem(sights))
         residual = self._residual(path, rigid, sights)
         if self._residual(path, bend, sights) > _BEND_GAIN * residual:
             bend = rigid
-        return Found(self.surfaces, path, bend, self._confidence(sights), residual)
+        confidence = np.where(rough, _ROUGH * self.seen, self._confidence(sights))
+        return Found(self.surfaces, path, bend, confidence, residual, hurried)
+
+    def refine(self, path: Path, t: int, sources: list[int]) -> tuple[Path, bool]:
+        """The path with the pose of frame t matched to some frames, and whether there was anything to match."""
+        if not self.seen[t] or self.deadline.over():
+            return path, False
+        sights = self._sights(path, [(s, t) for s in sources])
+        free, known = np.zeros(self.frames, bool), np.zeros(self.frames, bool)
+        free[t], known[max(t - 1, 0) : t + 2] = True, True
+        refined, _ = solve(path, self._problem(sights), free, known)
+        return (path, False) if self._lost(refined, t) else (refined, bool(sights))
 
     # --- preparation
 
@@ -147,8 +169,11 @@ class ObjectSolver:
         surface = self.surfaces.surfaces[s]
         if surface is None or not self.seen[t]:
             return None
+        began = time.perf_counter()
         predicted = project(self.surfaces.cameras, t, path.between(s, t, surface.points)).astype(np.float32)
-        return self.matcher.link(self.surfaces.layer, surface.grid, t, predicted, fine)
+        link = self.matcher.link(self.surfaces.layer, surface.grid, t, predicted, fine)
+        self.links, self.linking = self.links + 1, self.linking + time.perf_counter() - began
+        return link
 
     def _sight(self, path: Path, s: int, t: int, fine: bool = False) -> Sight | None:
         """Matches of frame s in frame t at the chosen points."""
@@ -186,6 +211,11 @@ class ObjectSolver:
         found += [self._outline_sight(path, s, t) for s, t in pairs]
         return [sight for sight in found if sight is not None]
 
+    def _affordable(self, pairs: list[tuple[int, int]]) -> bool:
+        """Whether a joint solve of these pairs should end before the deadline, judged by the links made so far."""
+        each = self.linking / max(self.links, 1)
+        return _SOLVE_COST * each * len(pairs) <= self.deadline.left()
+
     def _pairs(self, distances: tuple[int, ...], both: bool) -> list[tuple[int, int]]:
         """Frames to link: at the given distances, away from the reference frame or both ways, and from it to all."""
         pairs = {(self.ref, t) for t in range(self.frames)} - {(self.ref, self.ref)}
@@ -197,39 +227,52 @@ class ObjectSolver:
 
     # --- outward pass
 
-    def _outward(self) -> Path:
-        """Poses one after the other, from the reference frame to both ends."""
+    def _outward(self) -> tuple[Path, list[Sight], np.ndarray]:
+        """Poses one after the other, from the reference frame to both ends.
+
+        Returns the path, the matches of all frames, and (T,) which frames came after the deadline: their poses are
+        only where the object's pixels are.
+        """
         surface = self.surfaces.surfaces[self.ref]
         centre = np.zeros(3) if surface is None else _middle(surface)
         path = still_path(self.frames, centre, self.ref)
+        matches: list[Sight] = []
+        rough = np.zeros(self.frames, bool)
         for direction in (1, -1):
             done = [self.ref]
             t = self.ref + direction
             while 0 <= t < self.frames:
-                path = self._next(path, t, direction, done)
+                rough[t] = self.deadline.over()
+                if rough[t]:
+                    here = self.anchor[t] if self.seen[t] else path.position[t - direction]
+                    path = path.moved(t, path.rotation[t - direction], here)
+                else:
+                    path, sights = self._next(path, t, direction, done)
+                    matches += sights
                 if self.seen[t]:
                     done.append(t)
                 t += direction
-        return path
+        return path, matches, rough
 
-    def _next(self, path: Path, t: int, direction: int, done: list[int]) -> Path:
-        """The path with the pose of frame t found from the frames done before it."""
+    def _next(self, path: Path, t: int, direction: int, done: list[int]) -> tuple[Path, list[Sight]]:
+        """The path with the pose of frame t found from the frames done before it, and the matches it was found by."""
         rotation, position = _continued(path, t, direction)
         if not self.seen[t]:  # slower and slower: a motion does not go on for long unseen
             last = path.position[t - direction]
-            return path.moved(t, path.rotation[t - direction], last + _UNSEEN * (position - last))
+            return path.moved(t, path.rotation[t - direction], last + _UNSEEN * (position - last)), []
         path = path.moved(t, rotation, position)
         sources = [s for s in done if abs(s - t) in _BACK] or done[-1:]
         path = self._best_start(path, sources[-1], t)
         free, known = np.zeros(self.frames, bool), np.zeros(self.frames, bool)
         free[t] = True
         known[min(self.ref, t) : max(self.ref, t) + 1] = True
+        sights: list[Sight] = []
         for _ in range(2):
             sights = self._sights(path, [(s, t) for s in sources])
             path, _ = solve(path, self._problem(sights), free, known)
         if self._lost(path, t):  # it stays where it was, and the next frame starts anew
-            return path.moved(t, path.rotation[t - direction], path.position[t - direction])
-        return path
+            return path.moved(t, path.rotation[t - direction], path.position[t - direction]), []
+        return path, sights
 
     def _lost(self, path: Path, t: int) -> bool:
         """Whether the pose of frame t is none: not finite, or many times as far from the camera as at first."""

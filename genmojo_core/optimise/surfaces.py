@@ -74,6 +74,12 @@ class ObjectSurfaces:
         """Visible pixels in every frame."""
         return self.layer.mask.sum(axis=(1, 2)).astype(np.float64)
 
+    def selected(self, frames: np.ndarray) -> ObjectSurfaces:  # (K,) int64
+        """The same object in some of the frames."""
+        layer = Layer(self.layer.shade[frames], self.layer.mask[frames], self.layer.other[frames])
+        return replace(self, layer=layer, surfaces=[self.surfaces[t] for t in frames],
+                       cameras=self.cameras.selected(frames))  # fmt: skip
+
     def world(self, t: int, xy: np.ndarray) -> np.ndarray:  # (N, 2) raster -> (N, 3) world
         """Points of the surface of frame t at image places; the camera's own place where there is no surface."""
         surface = self.surfaces[t]

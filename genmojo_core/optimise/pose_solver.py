@@ -1,0 +1,276 @@
+"""Rigid motion of one object through a clip, solved jointly from flow links between many pairs of frames.
+
+Unknowns are the object's pose in every frame and, where the depth is a guess, the depth of every source point along
+its ray. Residuals are reprojection errors in pixels, distances to the target's surface, and second differences in time
+(so that hidden frames are interpolated). Gauss-Newton with a redescending kernel. ARCHITECTURE.md section 6.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from genmojo_core.clip.cameras import Cameras
+from genmojo_core.optimise.poses import Path, Problem, Sight, exp_rotation, log_rotation
+
+DEPTH_RANGE = 2.0  # a guessed depth may become half or twice as much, no more
+
+
+def solve(
+    path: Path, problem: Problem, free: np.ndarray, known: np.ndarray, rounds: int = 6
+) -> tuple[Path, np.ndarray]:
+    """Improve the poses of the free frames, and the depths if they are guesses.
+
+    Args:
+        path: start.
+        problem: matches and their noise.
+        free: (T,) bool frames whose pose may change (the reference frame never does).
+        known: (T,) bool frames whose pose means something: only these are asked to move smoothly.
+        rounds: Gauss-Newton steps.
+
+    Returns the path and the depths (M,).
+    """
+    free = free.copy()
+    free[path.ref] = False
+    slot = np.cumsum(free) - 1
+    count = int(free.sum())
+    depth, prior = problem.depth.copy(), problem.depth
+    if count == 0:
+        return path, depth
+    for _ in range(rounds):
+        normal = np.zeros((6 * count, 6 * count))
+        right = np.zeros(6 * count)
+        shape = _ShapeTerms(problem, free, slot)
+        for sight in problem.sights:
+            if free[sight.source] or free[sight.target]:
+                _add_sight(normal, right, shape, sight, problem, path, depth, free, slot)
+        _add_smoothness(normal, right, path, (free, known), slot, problem.size)
+        if problem.turn_weight > 0:
+            _add_stillness(normal, right, path, (free, known), slot, problem.turn_weight)
+        if problem.anchor is not None and problem.anchor_weight is not None:
+            for t in np.nonzero(free)[0]:
+                place = slice(6 * slot[t] + 3, 6 * slot[t] + 6)
+                normal[place, place] += problem.anchor_weight[t] * np.eye(3)
+                right[place] += problem.anchor_weight[t] * (problem.anchor[t] - path.position[t])
+        step, depth_step = shape.eliminate(normal, right, depth - prior)
+        if not (np.isfinite(step).all() and np.isfinite(depth_step).all()):
+            break  # matches that determine nothing: what stands is kept
+        depth = np.clip(depth + depth_step, prior / DEPTH_RANGE, prior * DEPTH_RANGE)
+        path = _stepped(path, step, free, slot, problem.size)
+        if np.abs(step).max() < 1e-5 * max(problem.size, 1e-9):
+            break
+    return path, depth
+
+
+class _ShapeTerms:
+    """The depths' part of the normal equations; the depths are independent, so they are eliminated exactly.
+
+    A depth of frame s couples only the poses of s and of the frames it is matched in, so the coupling is kept per
+    source frame: the cost grows with the matches, not with frames times depths.
+    """
+
+    def __init__(self, problem: Problem, free: np.ndarray, slot: np.ndarray) -> None:
+        self.sigma = problem.depth_sigma
+        self.on = self.sigma > 0
+        count = len(problem.depth) if self.on else 0
+        self.diagonal, self.right = np.zeros(count), np.zeros(count)
+        self.blocks: dict[int, _Coupling] = {}
+        if not self.on:
+            return
+        active = [sight for sight in problem.sights if free[sight.source] or free[sight.target]]
+        for source in {sight.source for sight in active}:
+            own = [sight for sight in active if sight.source == source]
+            slots = sorted({int(slot[f]) for f in [source, *(sight.target for sight in own)] if free[f]})
+            low, high = min(sight.index.min() for sight in own), max(sight.index.max() for sight in own) + 1
+            self.blocks[source] = _Coupling(int(low), int(high), slots)
+
+    def eliminate(self, normal: np.ndarray, right: np.ndarray, offset: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Steps of poses and depths; `offset` (M,) is how far the depths are from their prior."""
+        damped = normal + np.diag(1e-6 * np.diag(normal) + 1e-9)
+        if not self.on:
+            return np.linalg.solve(damped, right), np.zeros(len(offset))
+        diagonal = self.diagonal + 1.0 / self.sigma**2
+        b = self.right - offset / self.sigma**2
+        right = right.copy()
+        for block in self.blocks.values():
+            share = block.cross / diagonal[block.points, None]
+            damped[np.ix_(block.unknowns, block.unknowns)] -= block.cross.T @ share
+            right[block.unknowns] -= share.T @ b[block.points]
+        step = np.linalg.solve(damped, right)
+        for block in self.blocks.values():
+            b[block.points] -= block.cross @ step[block.unknowns]
+        return step, b / diagonal
+
+
+class _Coupling:
+    """Between the depths low..high of one source frame and the poses of some free frames (by slot)."""
+
+    def __init__(self, low: int, high: int, slots: list[int]) -> None:
+        self.points = slice(low, high)
+        self.unknowns = np.concatenate([np.arange(6 * s, 6 * s + 6) for s in slots])
+        self.column = {s: 6 * i for i, s in enumerate(slots)}
+        self.cross = np.zeros((high - low, 6 * len(slots)))
+
+    def add(self, index: np.ndarray, slot: int, values: np.ndarray) -> None:
+        """Add (N, 6) values for depths `index` (N,) and the pose of a slot."""
+        column = self.column[slot]
+        self.cross[index - self.points.start, column : column + 6] += values
+
+
+def _add_sight(
+    normal: np.ndarray,
+    right: np.ndarray,
+    shape: _ShapeTerms,
+    sight: Sight,
+    problem: Problem,
+    path: Path,
+    depth: np.ndarray,
+    *frames: np.ndarray,  # free, slot
+) -> None:
+    """Add one sight's reprojection and surface residuals to the normal equations."""
+    free, slot = frames
+    s, t, index = sight.source, sight.target, sight.index
+    turn = path.rotation[t] @ path.rotation[s].T
+    before = problem.origin[index] + depth[index, None] * problem.ray[index] - path.position[s]
+    after = before @ turn.T
+    world = after + path.position[t]
+    rows, errors, noise = residual_rows(problem, sight, world)
+    size = errors / noise
+    weights = robust_weights(size, sight.weight) / noise**2
+    blocks: list[tuple[int, np.ndarray]] = []
+    if free[t]:
+        blocks.append((int(slot[t]), np.concatenate([_cross_rows(rows, after), rows], axis=2)))
+    if free[s]:
+        back = rows @ turn
+        blocks.append((int(slot[s]), -np.concatenate([_cross_rows(back, before), back], axis=2)))
+    along = np.einsum("nri,ni->nr", rows, problem.ray[index] @ turn.T) if shape.on else None
+    for place, block in blocks:
+        weighted = block * weights[..., None]
+        right[_six(place)] += np.einsum("nri,nr->i", weighted, errors)
+        for other, second in blocks:
+            normal[_six(place), _six(other)] += np.einsum("nri,nrj->ij", weighted, second)
+        if along is not None:
+            shape.blocks[s].add(index, place, np.einsum("nri,nr->ni", weighted, along))
+    if along is not None:
+        shape.diagonal[index] += (weights * along * along).sum(axis=1)
+        shape.right[index] += (weights * along * errors).sum(axis=1)
+
+
+def residual_rows(problem: Problem, sight: Sight, world: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """What is missing between world points (N, 3) and their matches.
+
+    Returns derivatives (N, R, 3) by the points, residuals (N, R) and their noise (R,): image x, y and distance to the
+    target's surface, or for points of an outline only the distance across it.
+    """
+    rows, errors = image_rows(problem.cameras, sight.target, world, sight.xy)
+    if sight.facing is not None:
+        across = np.einsum("ni,nij->nj", sight.facing, rows)[:, None]
+        return across, (sight.facing * errors).sum(axis=1, keepdims=True), np.array([problem.outline_sigma])
+    if problem.surface_sigma <= 0:
+        return rows, errors, np.full(2, problem.pixel_sigma)
+    gap = np.einsum("ni,ni->n", sight.normal, sight.surface - world)
+    rows = np.concatenate([rows, sight.normal[:, None]], axis=1)
+    noise = np.array([problem.pixel_sigma, problem.pixel_sigma, problem.surface_sigma])
+    return rows, np.concatenate([errors, gap[:, None]], axis=1), noise
+
+
+def image_rows(cameras: Cameras, t: int, world: np.ndarray, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Derivative (N, 2, 3) of image places by world points, and what is missing (N, 2) to the matched places."""
+    pose, k = cameras.world_to_camera[t], cameras.K[t]
+    x = world @ pose[:3, :3].T + pose[:3, 3]
+    z = np.maximum(x[:, 2], 1e-6)
+    local = np.zeros((len(x), 2, 3))
+    local[:, 0, 0], local[:, 1, 1] = k[0, 0] / z, k[1, 1] / z
+    local[:, 0, 2], local[:, 1, 2] = -k[0, 0] * x[:, 0] / z**2, -k[1, 1] * x[:, 1] / z**2
+    seen = x[:, :2] / z[:, None] * [k[0, 0], k[1, 1]] + k[:2, 2]
+    return local @ pose[:3, :3], xy - seen
+
+
+def robust_weights(errors: np.ndarray, weight: np.ndarray) -> np.ndarray:  # (N, R), (N,) -> (N, R)
+    """Geman-McClure weights of residuals in units of their noise; image x and y share one, the surface has its own.
+
+    Scaled so that one sight counts as at most 40 independent points.
+    """
+    image = np.linalg.norm(errors[:, :2], axis=1)
+    kernel = np.tile(_kernel(image)[:, None], (1, errors.shape[1]))
+    if errors.shape[1] == 3:
+        kernel[:, 2] = _kernel(np.abs(errors[:, 2]))
+    return kernel * weight[:, None] * min(1.0, 40.0 / max(len(errors), 1))
+
+
+def _kernel(error: np.ndarray) -> np.ndarray:
+    """Geman-McClure weight, a quarter at twice the noise."""
+    return 1.0 / (1.0 + (error / 2.0) ** 2) ** 2
+
+
+def _cross_rows(rows: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Rows (N, R, 3) times the derivative of a turn about the origin of points (N, 3)."""
+    x, y, z = points[:, None].transpose(2, 0, 1)
+    a, b, c = rows.transpose(2, 0, 1)
+    return np.stack([y * c - z * b, z * a - x * c, x * b - y * a], axis=-1)
+
+
+def _six(slot: int) -> slice:
+    """The six unknowns of a free frame."""
+    return slice(6 * slot, 6 * slot + 6)
+
+
+def _add_smoothness(
+    normal: np.ndarray,
+    right: np.ndarray,
+    path: Path,
+    frames: tuple[np.ndarray, np.ndarray],  # free, known
+    slot: np.ndarray,
+    size: float,
+) -> None:
+    """Second differences of position (sigma 3 % of the size) and of rotation (sigma 2 degrees) in time."""
+    weights = np.repeat([1.0 / np.deg2rad(2.0) ** 2, 1.0 / (0.03 * size) ** 2], 3)
+    free, known = frames
+    for t in range(1, len(path.position) - 1):
+        if not known[t - 1 : t + 2].all():
+            continue
+        bend = path.position[t + 1] - 2 * path.position[t] + path.position[t - 1]
+        turn = log_rotation(path.rotation[t + 1] @ path.rotation[t].T)
+        turn -= log_rotation(path.rotation[t] @ path.rotation[t - 1].T)
+        error = -np.concatenate([turn, bend])
+        terms = [(f, c) for f, c in ((t - 1, 1.0), (t, -2.0), (t + 1, 1.0)) if free[f]]
+        for f, c in terms:
+            right[_six(slot[f])] += c * weights * error
+            for g, d in terms:
+                normal[_six(slot[f]), _six(slot[g])] += np.diag(c * d * weights)
+
+
+def _add_stillness(
+    normal: np.ndarray,
+    right: np.ndarray,
+    path: Path,
+    frames: tuple[np.ndarray, np.ndarray],  # free, known
+    slot: np.ndarray,
+    weight: float,
+) -> None:
+    """Turning between neighbouring frames costs `weight` per rad^2: a guessed shape must not explain all by turning."""
+    free, known = frames
+    for t in range(len(path.position) - 1):
+        if not (known[t] and known[t + 1]):
+            continue
+        turn = log_rotation(path.rotation[t + 1] @ path.rotation[t].T)
+        terms = [(f, c) for f, c in ((t, -1.0), (t + 1, 1.0)) if free[f]]
+        for f, c in terms:
+            place = slice(6 * slot[f], 6 * slot[f] + 3)
+            right[place] -= c * weight * turn
+            for g, d in terms:
+                normal[place, 6 * slot[g] : 6 * slot[g] + 3] += c * d * weight * np.eye(3)
+
+
+def _stepped(path: Path, step: np.ndarray, free: np.ndarray, slot: np.ndarray, size: float) -> Path:
+    """The path after a Gauss-Newton step; turns are limited to 0.3 rad, moves to half the object's size."""
+    rotation, position = path.rotation.copy(), path.position.copy()
+    for t in np.nonzero(free)[0]:
+        part = step[_six(slot[t])]
+        angle = float(np.linalg.norm(part[:3]))
+        turned = exp_rotation(part[:3] * min(1.0, 0.3 / max(angle, 1e-12))) @ rotation[t]
+        rotation[t] = exp_rotation(log_rotation(turned))
+        far = float(np.linalg.norm(part[3:]))
+        position[t] = position[t] + part[3:] * min(1.0, 0.5 * size / max(far, 1e-12))
+    return replace(path, rotation=rotation, position=position)

@@ -1,0 +1,94 @@
+"""Motion of long clips and motion in a hurry: rotations stay rotations, key frames are enough, deadlines are kept."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+
+import numpy as np
+
+from genmojo_core.clip.synthetic import generate
+from genmojo_core.clip.synthetic_specs import spec
+from genmojo_core.estimate.complete import complete
+from genmojo_core.optimise.deadline import NO_DEADLINE, Deadline
+from genmojo_core.optimise.keyframes import MOST_KEYS, key_frames, spread_path
+from genmojo_core.optimise.motion import initial_motion
+from genmojo_core.optimise.motion_solver import _continued
+from genmojo_core.optimise.poses import exp_rotation, log_rotation, still_path
+
+
+def small_clip(frames: int):
+    return generate(replace(spec("crossing-shapes"), frames=frames, size=(96, 54), novel_every=0))
+
+
+def errors(clip, truth, motions) -> np.ndarray:
+    """(K, T) pixels between the median true track of each object and its median place by the motion's poses."""
+    found = np.stack([np.median(m.track_xy, axis=0) - np.median(m.track_xy[:, m.ref_frame], axis=0) for m in motions])
+    true = []
+    for k, motion in enumerate(motions):
+        own = truth.tracks[(truth.track_object == k + 1) & truth.visible[:, motion.ref_frame]]
+        true.append(np.median(own, axis=0) - np.median(own[:, motion.ref_frame], axis=0))
+    return np.linalg.norm(found - np.stack(true), axis=-1)
+
+
+def test_a_rotation_predicted_over_a_thousand_frames_stays_a_rotation() -> None:
+    path = still_path(1000, np.zeros(3), 0)
+    path = path.moved(1, exp_rotation(np.array([0.05, 0.02, -0.03])), np.ones(3))
+    for t in range(2, 1000):
+        path = path.moved(t, *_continued(path, t, 1))
+    assert np.abs(path.rotation @ path.rotation.transpose(0, 2, 1) - np.eye(3)).max() < 1e-12
+
+
+def test_key_frames_hold_the_reference_and_are_few() -> None:
+    for frames, ref in ((24, 5), (64, 0), (65, 64), (300, 17), (5000, 4999)):
+        keys = key_frames(frames, ref)
+        assert ref in keys and len(keys) <= MOST_KEYS and keys[0] >= 0 and keys[-1] < frames
+    assert len(key_frames(64, 3)) == 64
+
+
+def test_a_path_spread_from_its_keys_goes_through_them_and_turns_evenly() -> None:
+    keys = np.array([1, 4, 7])
+    path = still_path(3, np.zeros(3), 1).moved(0, exp_rotation(np.array([0.0, 0.0, 0.3])), np.array([3.0, 0.0, 0.0]))
+    path = path.moved(2, exp_rotation(np.array([0.6, 0.0, 0.0])), np.array([0.0, 6.0, 0.0]))
+    whole = spread_path(path, keys, 9)
+    assert whole.ref == 4
+    assert np.allclose(whole.rotation[keys], path.rotation) and np.allclose(whole.position[keys], path.position)
+    assert np.allclose(log_rotation(whole.rotation[6]), [0.4, 0.0, 0.0])
+    assert np.allclose(whole.position[2], [2.0, 0.0, 0.0])
+    assert np.allclose(whole.rotation[8], whole.rotation[7]) and np.allclose(whole.position[0], whole.position[1])
+
+
+def test_objects_of_a_long_clip_are_followed_between_its_key_frames() -> None:
+    clip, truth = small_clip(80)
+    motions = initial_motion(complete(clip))
+    assert not any(m.hurried for m in motions)
+    assert np.median(errors(clip, truth, motions)) < 1.0
+    assert (errors(clip, truth, motions) < 4.0).mean() > 0.9
+
+
+def test_without_time_every_object_still_goes_where_its_pixels_are() -> None:
+    clip, truth = small_clip(24)
+    clip = complete(clip)
+    began = time.perf_counter()
+    motions = initial_motion(clip, deadline=Deadline(time.perf_counter()))
+    hurried = time.perf_counter() - began
+    assert all(m.hurried and np.isfinite(m.pose).all() for m in motions)
+    assert np.median(errors(clip, truth, motions)) < 4.0
+    initial_motion(clip)
+    assert hurried < 0.5 * (time.perf_counter() - began - hurried)
+
+
+def test_an_end_that_is_asked_for_comes_as_soon_as_a_deadline() -> None:
+    clip, _ = small_clip(12)
+    asked = []
+
+    def stopped() -> bool:
+        asked.append(1)
+        return len(asked) > 5
+
+    motions = initial_motion(complete(clip), deadline=Deadline(stopped=stopped))
+    assert any(m.hurried for m in motions)
+
+
+def test_a_part_of_no_deadline_is_none() -> None:
+    assert not NO_DEADLINE.part(0.3).over()
