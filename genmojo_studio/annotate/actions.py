@@ -1,0 +1,134 @@
+"""What a person can do in the annotator, with keys for four habits: Studio, CVAT, labelme, Blender.
+
+Keys that are held (occluded, loupe, hide) act until they are let go; `held.py` sees to that.
+"""
+
+from __future__ import annotations
+
+from genmojo_studio.actions import Action
+
+WORKSPACE = "annotate"
+MENUS = {"move": "Go", "point": "Point", "track": "Track", "view": "View", "edit": "Edit", "review": "Review",
+         "file": "File", "step": "Go/Step"}  # fmt: skip
+
+
+def _action(name: str, text: str, keys: str = "", help_: str = "", **more: object) -> Action:
+    """One row: "group.verb", text, Studio's keys separated by spaces, sentence; `cvat`, `labelme`, `blender` keys."""
+    presets = {
+        title: tuple(str(more.pop(title.lower())).split())
+        for title in ("CVAT", "labelme", "Blender")
+        if title.lower() in more
+    }
+    menu = MENUS[name.split(".")[0]]
+    return Action(f"annotate.{name}", text, menu, tuple(keys.split()), presets, WORKSPACE, help_, **more)  # type: ignore[arg-type]
+
+
+_MOVE = (
+    _action("move.next", "Next frame", "Right D", "One frame on.", cvat="F Right", labelme="D Right", blender="Right",
+            repeats=True),
+    _action("move.previous", "Previous frame", "Left A", "One frame back.", cvat="D Left", labelme="A Left",
+            blender="Left", repeats=True),
+    _action("move.stride_next", "On by the stride", ".", "On by the frames of the stride.", cvat="V .", repeats=True),
+    _action("move.stride_previous", "Back by the stride", ",", "Back by the stride.", cvat="C ,", repeats=True),
+    _action("move.accept", "Accept all points and go on", "Return Enter", "Confirms the points here that nothing speaks "
+            "against, and goes on by the stride or to the point that needs a look."),
+    _action("move.accept_back", "Accept and go back", "Shift+Return Shift+Enter", "The same, backwards."),
+    _action("move.ten_next", "Ten frames on", "Shift+Right", "Ten frames on.", blender="Ctrl+Alt+Up", repeats=True),
+    _action("move.ten_previous", "Ten frames back", "Shift+Left", "Ten back.", blender="Ctrl+Alt+Down", repeats=True),
+    _action("move.hundred_next", "A hundred frames on", "Ctrl+Alt+Right", "A hundred frames on."),
+    _action("move.hundred_previous", "A hundred frames back", "Ctrl+Alt+Left", "A hundred frames back."),
+    _action("move.first", "First frame", "Home", "The clip's first frame.", blender="Shift+Left"),
+    _action("move.last", "Last frame", "End", "The clip's last frame.", blender="Shift+Right"),
+    _action("move.play", "Play or pause", "Space", "Plays at the speed chosen."),
+    _action("move.loop", "Play the segment in a loop", "Shift+Space", "Between the keys around this frame."),
+    _action("move.key_next", "Next key of the track", "Down R", "Where a person placed the point next.", blender="Up"),
+    _action("move.key_previous", "Previous key of the track", "Up E", "The key before.", blender="Down"),
+    _action("move.bisect", "Middle of the gap", "B", "The frame halfway between the keys around this one."),
+    _action("move.worst", "Next suspicious spot", "N", "The most suspicious spot that nobody looked at."),
+    _action("move.worst_back", "Previous suspicious spot", "Shift+N", "Back through the suspicious spots."),
+    _action("move.back", "Back to where I was", "Alt+Home", "The frame and track before the last jump."),
+    _action("move.panel", "Next panel", "F6", "Moves the keyboard to the next panel."),
+)  # fmt: skip
+
+_POINT = (
+    *(_action(f"point.choose_{n}", f"Point {n}", str(n), f"Makes point {n} of the object active.") for n in range(1, 6)),
+    *(_action(f"point.object_{n}", f"Object {n}", f"Shift+{n}", f"Makes object {n} active.") for n in range(1, 6)),
+    _action("point.next", "Next point", "Alt+Down", "The next point; in the frame Tab does it too."),
+    _action("point.previous", "Previous point", "Alt+Up", "The point before; in the frame Shift+Tab too."),
+    _action("point.occluded", "Occluded", "Q", "Hidden by something; hold and step to paint. Right click too.",
+            cvat="Q /", blender="Q Shift+D"),
+    _action("point.outside", "Out of view", "O", "Outside the picture; hold and step to paint."),
+    _action("point.visible", "Visible", "V", "Seen; hold and step to paint.", cvat="Shift+V"),
+    _action("point.uncertain", "Uncertain", "U", "Marks a place as uncertain, or no longer."),
+    _action("point.run_start", "Run starts here", "[", "The next state, or fault found, begins in this frame."),
+    _action("point.run_end", "Run ends here", "]", "The next state, or fault found, ends in this frame."),
+    _action("point.key", "Key on or off", "K", "Makes this place a key, or an ordinary place.", blender="I"),
+    _action("point.delete_key", "Delete the key", "Del", "The key becomes an ordinary place.", blender="Shift+X",
+            labelme="Del", cvat="Del"),
+    _action("point.snap", "Snap to the likeness", "S", "Clicks go to the best likeness nearby; shown before.",
+            checkable=True),
+    *(_action(f"point.nudge_{side.lower()}", f"Nudge {side.lower()}", f"Ctrl+{side}", "A quarter of a pixel.",
+              repeats=True) for side in ("Left", "Right", "Up", "Down")),
+    *(_action(f"point.push_{side.lower()}", f"Push {side.lower()}", f"Ctrl+Shift+{side}", "One pixel.", repeats=True)
+      for side in ("Left", "Right", "Up", "Down")),
+)  # fmt: skip
+
+_TRACK = (
+    _action("track.seed", "Seed tracks…", "Ctrl+G", "Lets a tracker propose positions for every point."),
+    _action("track.next", "Track one frame on", "Alt+Right", "Takes the point into the next frame."),
+    _action("track.previous", "Track one frame back", "Alt+Left", "Takes the point into the frame before."),
+    _action("track.on", "Track on to the end", "T", "Solves from here to the next key.", cvat="T",
+            blender="Ctrl+T", separator=True),
+    _action("track.back", "Track back to the start", "Shift+T", "Solves back to the key before.",
+            blender="Shift+Ctrl+T"),
+    _action("track.solve", "Solve the segment again", "Ctrl+T", "Between the keys around this frame.", blender="T"),
+    _action("track.mode", "Segment: tracker, line, hold", "I", "How the segment between two keys is filled.",
+            blender="Alt+M"),
+    _action("track.clear_after", "Clear after this frame", "Alt+Del", "Forgets the track after here.", blender="Alt+T",
+            separator=True),
+    _action("track.clear_before", "Clear before this frame", "Alt+Shift+Del", "Forgets it before here.",
+            blender="Shift+T"),
+    _action("track.swap", "Swap with another point…", "", "Two points change places from here on."),
+    _action("track.lock", "Lock the track", "Ctrl+L", "A locked track cannot be changed.", cvat="L Ctrl+L",
+            checkable=True),
+    _action("track.delete", "Delete the track", "Shift+Del", "Can be undone.", blender="X"),
+)  # fmt: skip
+
+_VIEW = (
+    _action("view.fit", "Fit the frame", "F", "The whole frame.", cvat="Ctrl+F", labelme="Ctrl+F F", blender="Home F"),
+    _action("view.one", "One to one", "0", "One pixel of the clip per pixel of the screen."),
+    _action("view.in", "Zoom in", "+ =", "About the middle of the frame."),
+    _action("view.out", "Zoom out", "-", "About the middle of the frame."),
+    _action("view.follow", "View follows the point", "L", "Keeps the point in the middle.", checkable=True,
+            cvat="Shift+L"),
+    _action("view.loupe", "Loupe while held", "Z", "Now, the key before, the first frame and the difference."),
+    _action("view.loupe_stay", "Loupe", "Shift+Z", "Keeps the loupe open.", checkable=True),
+    _action("view.hide", "Hide what is drawn while held", "H", "Shows the bare frame.", blender="Shift+Alt+Z"),
+    _action("view.masks", "Masks: off, outline, filled", "M", "Changes how masks are drawn."),
+    _action("view.trails", "Trails: off, short, long", "G", "Changes the length of the trails."),
+    _action("view.strip", "Stabilised strip", "P", "Patches of the point in the frames around.", checkable=True),
+    _action("view.reticle_larger", "Larger reticle", "Alt+=", "The cross at the mouse."),
+    _action("view.reticle_smaller", "Smaller reticle", "Alt+-", "The cross at the mouse."),
+)
+
+_REST = (
+    _action("edit.undo", "Undo", "Ctrl+Z", "Takes the last change back and shows where it was."),
+    _action("edit.redo", "Redo", "Ctrl+Shift+Z Ctrl+Y", "Does it again."),
+    _action("edit.checkpoint", "Name this moment…", "Ctrl+S", "Everything is stored already; this gives it a name.",
+            separator=True),
+    _action("edit.history", "Go back to a named moment…", "", "Undoes or redoes up to a checkpoint."),
+    _action("review.fix", "Needs a fix…", "X", "Returns the track to its annotator with a reason.", blender="Ctrl+X"),
+    _action("review.fixed", "Fixed", "Ctrl+Shift+Return", "Says that the spot was worked on."),
+    _action("review.approve", "Approve the track", "Ctrl+Return", "The track is right; it is locked."),
+    _action("review.merge", "Compare with a second annotator…", "", "Agreement, and a merge with preview."),
+    _action("review.log", "Log and statistics…", "", "Who did what when; time per clip and person."),
+    _action("file.new_clip", "Annotate a clip…", "", "Opens a clip with a project of its own.", separator=True),
+    _action("file.import", "Import tracks…", "Ctrl+I", "TAP-Vid, CoTracker, SLEAP, DeepLabCut, CVAT, COCO, ours.",
+            separator=True),
+    _action("file.export", "Export tracks…", "Ctrl+E", "The same formats."),
+    _action("file.tour", "Tour of the annotator", "", "Ten steps on a clip made on the spot."),
+    *(_action(f"step.{n}", title, f"Alt+{n}", f"Step {n} of 4.") for n, title in
+      enumerate(("Objects", "Points and seed", "Refine", "Review"), 1)),
+)  # fmt: skip
+
+ACTIONS: tuple[Action, ...] = (*_MOVE, *_POINT, *_TRACK, *_VIEW, *_REST)

@@ -1,0 +1,320 @@
+"""The visualisation panel: one frame with everything over it, painted together, so that nothing is ever out of step.
+
+The canvas knows no annotation: it is given a frame and a `Picture`, and says in raster pixels what a person did.
+"""
+
+from __future__ import annotations
+
+import math
+from enum import Enum
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRect, QRectF, Qt, QTimer, Signal
+from PySide6.QtGui import QColor, QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QResizeEvent, QWheelEvent
+from PySide6.QtWidgets import QWidget
+
+from genmojo_studio.annotate import overlay
+from genmojo_studio.annotate.loupe import Loupe
+from genmojo_studio.annotate.mapping import Mapping, fitted
+from genmojo_studio.annotate.overlay import Mark, Picture
+from genmojo_studio.annotate.patches import shrunk
+from genmojo_studio.translate import tr
+
+REACH = 12.0  # widget pixels within which a point is grabbed
+SLACK = 4.0  # a press that moves less is a click
+FINE = 0.125  # speed of a drag with Shift
+_SMOOTH_AFTER = 120  # ms without a new frame after which a shrunk frame is drawn without aliasing
+
+
+class Tool(Enum):
+    """What the left button does."""
+
+    POINT = "point"
+    BOX = "box"
+    SCRIBBLE = "scribble"
+    SCRIBBLE_OUT = "scribble out"
+
+
+class Canvas(QWidget):
+    """Frame, overlay, reticle and loupe; emits raster positions."""
+
+    clicked = Signal(float, float)  # place the active point here
+    picked = Signal(int)  # track under a click
+    dragged = Signal(int, float, float)  # track, where it was let go
+    toggled = Signal(int)  # right click on a track
+    boxed = Signal(float, float, float, float)
+    stroked = Signal(object, bool)  # (n, 2) raster points, True on the object
+    hovered = Signal(float, float)
+    zoomed = Signal(float)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setMinimumSize(320, 200)
+        self.setAccessibleName(tr("Frame with points"))
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.mapping, self.picture, self.loupe = Mapping(), Picture(), Loupe()
+        self.tool, self.reticle = Tool.POINT, 18
+        self.show_overlay, self.ghost = True, None
+        self.ghost: tuple[float, float] | None = None  # where snapping would put a click
+        self.locked_on: tuple[float, float] | None = None  # raster place held in the middle of the view
+        self._frame: np.ndarray | None = None
+        self._image: QImage | None = None
+        self._small: tuple[tuple[object, ...], np.ndarray, QImage] | None = None
+        self._fit = True
+        self._mouse = QPointF(-1, -1)
+        self._press: QPointF | None = None
+        self._grab: Mark | None = None
+        self._drag_xy: tuple[float, float] | None = None
+        self._pan_from: Mapping | None = None
+        self._stroke: list[QPointF] = []
+        self._background = QColor("#101113")
+        self._calm = QTimer(self)
+        self._calm.setSingleShot(True)
+        self._calm.setInterval(_SMOOTH_AFTER)
+        self._calm.timeout.connect(self.update)
+
+    # ---- what is shown
+
+    def show_frame(self, frame: np.ndarray | None, picture: Picture) -> None:
+        """Put a frame (H, W, 4) BGRA and its overlay on show together; None empties the panel."""
+        resized = frame is not None and (self._frame is None or self._frame.shape != frame.shape)
+        if frame is not self._frame:
+            self._frame, self._small = frame, None
+            height, width = frame.shape[:2] if frame is not None else (0, 0)
+            self._image = None
+            if frame is not None:
+                self._image = QImage(frame.data, width, height, 4 * width, QImage.Format.Format_RGB32)
+            self._calm.start()
+        self.picture = picture
+        if resized and self._fit:
+            self.fit()
+        if self.locked_on is not None:
+            self.mapping = self.mapping.centred(*self.locked_on, (self.width(), self.height()))
+        self.update()
+
+    def set_background(self, colour: str) -> None:
+        """Colour around the frame."""
+        self._background = QColor(colour)
+        self.update()
+
+    def fit(self) -> None:
+        """Show the whole frame, and keep doing so when the panel's size changes."""
+        self._fit = True
+        if self._frame is not None:
+            self.mapping = fitted((self._frame.shape[1], self._frame.shape[0]), (self.width(), self.height()))
+        self._zoom_changed()
+
+    def one_to_one(self) -> None:
+        """One raster pixel per widget pixel, around the middle of the view."""
+        self.zoom(1.0 / self.mapping.zoom)
+
+    def zoom(self, factor: float, at: QPointF | None = None) -> None:
+        """Zoom about a widget position, by default the middle."""
+        at = at or QPointF(self.width() / 2, self.height() / 2)
+        self._fit = False
+        self.mapping = self.mapping.zoomed(factor, at.x(), at.y())
+        self._zoom_changed()
+
+    def mouse_raster(self) -> tuple[float, float] | None:
+        """Raster position of the mouse, None outside the frame."""
+        if self._frame is None or not self.rect().contains(self._mouse.toPoint()):
+            return None
+        x, y = self.mapping.to_image(self._mouse.x(), self._mouse.y())
+        inside = 0 <= x <= self._frame.shape[1] and 0 <= y <= self._frame.shape[0]
+        return (x, y) if inside else None
+
+    # ---- painting
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Frame, overlay, tools, loupe; only what changed is clipped in."""
+        painter = QPainter(self)
+        painter.fillRect(event.rect(), self._background)
+        if self._frame is None:
+            painter.setPen(self.palette().placeholderText().color())
+            painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, tr("Open a clip to begin"))
+            painter.end()
+            return
+        self._paint_frame(painter)
+        if self.show_overlay:
+            overlay.draw(painter, self.picture, self.mapping, QRectF(self.rect()))
+        self._paint_tools(painter)
+        if self.loupe.on:
+            self.loupe.paint(painter, self.rect(), self._mouse)
+        if self.hasFocus():
+            painter.setPen(QPen(self.palette().highlight().color(), 2))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRect(QRectF(self.rect()).adjusted(1, 1, -1, -1))
+        painter.end()
+
+    def _paint_frame(self, painter: QPainter) -> None:
+        if self._frame is None or self._image is None:
+            return
+        height, width = self._frame.shape[:2]
+        x, y = self.mapping.to_widget(0, 0)
+        target = QRectF(x, y, width * self.mapping.zoom, height * self.mapping.zoom)
+        ratio = self.devicePixelRatioF()
+        pixels = round(target.width() * ratio), round(target.height() * ratio)
+        if self._calm.isActive() or pixels[0] >= width or self.width() < 2:
+            painter.drawImage(target, self._image)
+            return
+        key = (pixels, id(self._frame))
+        if self._small is None or self._small[0] != key:
+            small = shrunk(self._frame, pixels)
+            image = QImage(small.data, pixels[0], pixels[1], 4 * pixels[0], QImage.Format.Format_RGB32)
+            self._small = (key, small, image)
+        painter.drawImage(target, self._small[2])
+
+    def _paint_tools(self, painter: QPainter) -> None:
+        """Reticle at the mouse, the point being dragged, the snap's target, boxes and strokes."""
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, on=True)
+        if self._grab is not None and self._drag_xy is not None:
+            overlay.draw_mark(painter, self._grab, QPointF(*self.mapping.to_widget(*self._drag_xy)), selected=True)
+        if self.ghost is not None:
+            at = QPointF(*self.mapping.to_widget(*self.ghost))
+            painter.setPen(QPen(QColor(90, 255, 160), 1.6, Qt.PenStyle.DashLine))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawEllipse(at, 9, 9)
+            painter.drawLine(self._mouse, at)
+        colour = QColor(255, 120, 120) if self.tool == Tool.SCRIBBLE_OUT else QColor(120, 220, 255)
+        painter.setPen(QPen(colour, 2))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        if self.tool == Tool.BOX and self._press is not None:
+            painter.drawRect(QRectF(self._press, self._mouse).normalized())
+        elif self._stroke:
+            painter.drawPolyline(self._stroke)
+        if self.tool == Tool.POINT and self._grab is None and self.underMouse():
+            self._paint_reticle(painter, self._mouse)
+
+    def _paint_reticle(self, painter: QPainter, at: QPointF) -> None:
+        """Four arms with a gap, dark under light, so that it shows on any picture."""
+        arm, gap = float(self.reticle), 3.0
+        for colour, width in ((QColor(0, 0, 0, 170), 3.0), (QColor(255, 255, 255), 1.0)):
+            painter.setPen(QPen(colour, width))
+            for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+                painter.drawLine(at + QPointF(dx * gap, dy * gap), at + QPointF(dx * arm, dy * arm))
+
+    # ---- mouse
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Grab the nearest point, begin a box, a stroke or a pan."""
+        self._mouse = event.position()
+        button = event.button()
+        if button == Qt.MouseButton.RightButton:
+            near = self._near(event.position())
+            if near is not None:
+                self.toggled.emit(near.track)
+            return
+        self._press = event.position()
+        if button == Qt.MouseButton.MiddleButton:
+            self._pan_from = self.mapping
+        elif button == Qt.MouseButton.LeftButton and self.tool == Tool.POINT:
+            self._grab = self._near(event.position())
+        elif button == Qt.MouseButton.LeftButton and self.tool in (Tool.SCRIBBLE, Tool.SCRIBBLE_OUT):
+            self._stroke = [event.position()]
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Drag what was grabbed, pan, or show where the mouse is."""
+        before, self._mouse = self._mouse, event.position()
+        left = bool(event.buttons() & Qt.MouseButton.LeftButton)
+        moved = self._press is not None and _length(self._mouse - self._press) > SLACK
+        if self._grab is not None and left and (moved or self._drag_xy is not None):
+            self._drag(before, fine=bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
+        elif self._stroke:
+            self._stroke.append(event.position())
+        elif self._press is not None and moved and self.tool == Tool.POINT and self._grab is None:
+            self._pan_from = self._pan_from or self.mapping
+        if self._pan_from is not None and self._press is not None:
+            shift = self._mouse - self._press
+            self._fit = False
+            self.mapping = self._pan_from.panned(shift.x(), shift.y())
+        x, y = self.mapping.to_image(self._mouse.x(), self._mouse.y())
+        self.hovered.emit(x, y)
+        self._repaint_around(before)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """Say what was done."""
+        self._mouse = event.position()
+        press, grab, drag, stroke, pan = self._press, self._grab, self._drag_xy, self._stroke, self._pan_from
+        self._press, self._grab, self._drag_xy, self._stroke, self._pan_from = None, None, None, [], None
+        if press is None or event.button() == Qt.MouseButton.RightButton:
+            return
+        x, y = self.mapping.to_image(self._mouse.x(), self._mouse.y())
+        if self.tool == Tool.BOX:
+            x0, y0 = self.mapping.to_image(press.x(), press.y())
+            self.boxed.emit(min(x0, x), min(y0, y), max(x0, x), max(y0, y))
+        elif stroke:
+            points = np.array([self.mapping.to_image(p.x(), p.y()) for p in stroke])
+            self.stroked.emit(points, self.tool == Tool.SCRIBBLE)
+        elif grab is not None and drag is not None:
+            self.dragged.emit(grab.track, *drag)
+        elif grab is not None and grab.track != self.picture.selected:
+            self.picked.emit(grab.track)
+        elif pan is None and event.button() == Qt.MouseButton.LeftButton:
+            self.clicked.emit(*(self.ghost or (x, y)))
+        self.update()
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Zoom at the mouse; the loupe's own zoom while it is held."""
+        steps = event.angleDelta().y() / 120
+        if self.loupe.on:
+            self.loupe.zoom = min(max(self.loupe.zoom * 2 ** (steps / 2), 4.0), 16.0)
+            self.update()
+        else:
+            self.zoom(1.2**steps, event.position())
+        event.accept()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep the whole frame in view while nobody zoomed, else the middle where it is."""
+        if self._fit:
+            self.fit()
+        elif event.oldSize().isValid():
+            grown = event.size() - event.oldSize()
+            self.mapping = self.mapping.panned(grown.width() / 2, grown.height() / 2)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Keys belong to the actions of the workspace."""
+        event.ignore()
+
+    def leaveEvent(self, event: object) -> None:
+        """No reticle without a mouse."""
+        self.update()
+
+    # ---- helpers
+
+    def _near(self, at: QPointF) -> Mark | None:
+        """The nearest mark within reach; the selected one wins ties."""
+        best, least = None, REACH
+        for mark in self.picture.marks if self.show_overlay else []:
+            away = _length(QPointF(*self.mapping.to_widget(*mark.xy)) - at)
+            if away < least or (best is not None and away == least and mark.track == self.picture.selected):
+                best, least = mark, away
+        return best
+
+    def _drag(self, before: QPointF, *, fine: bool) -> None:
+        if self._grab is None:
+            return
+        if self._drag_xy is None:
+            start = self._press or before
+            self._drag_xy, before = self._grab.xy, start
+        step = (self._mouse - before) * ((FINE if fine else 1.0) / self.mapping.zoom)
+        self._drag_xy = (self._drag_xy[0] + step.x(), self._drag_xy[1] + step.y())
+
+    def _repaint_around(self, before: QPointF) -> None:
+        """Repaint what the mouse moved over, or everything where more changes."""
+        if self._pan_from is not None or self._stroke or self.loupe.on or self.ghost is not None or self._press:
+            self.update()
+            return
+        reach = self.reticle + 6
+        for at in (before, self._mouse):
+            self.update(QRect(int(at.x()) - reach, int(at.y()) - reach, 2 * reach, 2 * reach))
+
+    def _zoom_changed(self) -> None:
+        self._small = None
+        self.zoomed.emit(self.mapping.zoom)
+        self.update()
+
+
+def _length(vector: QPointF) -> float:
+    return math.hypot(vector.x(), vector.y())
