@@ -70,6 +70,16 @@ class EffectChanged(Event):
 
 
 @dataclass(frozen=True)
+class ParameterChanged(Event):
+    """A parameter (optimise/parameters.py) was changed by hand; it holds from the step after `step` on."""
+
+    step: int
+    name: str
+    old: float
+    new: float
+
+
+@dataclass(frozen=True)
 class Warned(Event):
     """Something the user should know; stable `code`."""
 

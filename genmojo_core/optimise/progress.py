@@ -20,6 +20,18 @@ class Clock:
     def __init__(self) -> None:
         self._wall, self._cpu = time.perf_counter(), time.process_time()
         self._earlier = (0.0, 0.0)
+        self._held: tuple[float, float] | None = None
+
+    def hold(self) -> None:
+        """Stand still, e.g. while a run is paused, until `go_on`."""
+        self._held = self._held or (time.perf_counter(), time.process_time())
+
+    def go_on(self) -> None:
+        """Go on after `hold`; what passed meanwhile does not count."""
+        if self._held is not None:
+            self._wall += time.perf_counter() - self._held[0]
+            self._cpu += time.process_time() - self._held[1]
+            self._held = None
 
     def now(self) -> tuple[float, float]:
         """(wall, CPU) seconds."""

@@ -10,6 +10,7 @@ Reading order of the method: motion.py (initial motion), lift.py (first scene), 
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -19,12 +20,14 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.config import RunConfig
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.errors import GenmojoError
-from genmojo_core.events import Checkpointed, Event, Failed, Finished, Preview, StageStarted, Warned
-from genmojo_core.optimise import checkpoint, density
+from genmojo_core.events import Checkpointed, Event, Failed, Finished, ParameterChanged, Preview, StageStarted, Warned
+from genmojo_core.optimise import checkpoint, density, parameters
 from genmojo_core.optimise.bake import Provenance, bake
+from genmojo_core.optimise.deadline import Deadline
 from genmojo_core.optimise.first_poses import first_poses, usable_motion
 from genmojo_core.optimise.guard import Guard
 from genmojo_core.optimise.lift import Lifted, lift, track_supervision
+from genmojo_core.optimise.live import LiveFrame, live_frame
 from genmojo_core.optimise.motion import initial_motion
 from genmojo_core.optimise.objective import Objective, Outcome, TrackSupervision
 from genmojo_core.optimise.progress import Clock, Progress
@@ -36,6 +39,7 @@ from genmojo_core.optimise.schedule import (
     make_optimiser,
     set_rates,
     stages,
+    start_rate,
 )
 from genmojo_core.optimise.targets import Targets
 from genmojo_core.render.backend import choose
@@ -43,6 +47,7 @@ from genmojo_core.store.scene_file import BakedScene
 
 SNAPSHOT_EVERY = 50  # steps
 PREVIEW_EVERY = 25  # steps
+MOTION_SHARE = 0.4  # of the budget
 
 
 class Run:
@@ -54,6 +59,8 @@ class Run:
 
     Iterating yields events and ends with Finished or Failed. `stop()` may be called from another thread or a signal
     handler: the loop ends after the present step with what it has. `bake()` works after the first Preview.
+    Between two events the caller may `change` a parameter, write a `checkpoint`, look at `live` Gaussians, or wait
+    (with `clock.hold()` and `clock.go_on()` around it).
 
     Raises (on iteration):
         GenmojoError: no object in the clip ("empty"), a checkpoint that does not fit ("schema", "corrupt", "io").
@@ -68,6 +75,8 @@ class Run:
         self.clock = Clock()
         self.progress = Progress(config, stages(config, len(clip)), len(clip))
         self.stopped = False
+        self.step_limit: int | None = None
+        self.changes: list[ParameterChanged] = []
 
     def stop(self) -> None:
         """Ask the loop to end after the present step."""
@@ -78,8 +87,36 @@ class Run:
         if not hasattr(self, "scene"):
             raise GenmojoError("empty", "there is no scene yet", self.clip.name, "let the run reach its first preview")
         config = {**self.config.to_json(), "input": self.clip.path, "guesses": list(self.clip.guesses)}
+        if self.changes:
+            config["changes"] = [change.to_json() for change in self.changes]
         metrics = {"steps": float(self.progress.step), "seconds": self.clock.now()[0]}
         return bake(self.scene, self.clip, Provenance(config, self.plan.to_json(), self.progress.curve, metrics))
+
+    def live(self, t: int) -> LiveFrame:
+        """The Gaussians of frame t as they stand. Raises GenmojoError("empty") before the first Preview."""
+        if not hasattr(self, "scene"):
+            raise GenmojoError("empty", "there is no scene yet", self.clip.name, "let the run reach its first preview")
+        return live_frame(self.scene, t)
+
+    def change(self, name: str, value: float) -> ParameterChanged:
+        """Set a parameter of `parameters.PARAMETERS` from the next step on. Raises GenmojoError("argument")."""
+        new = parameters.checked(name, value)
+        if name == parameters.STEP_LIMIT:
+            old = float(self.progress.total if self.step_limit is None else self.step_limit)
+            self.step_limit = int(new)
+        else:
+            old = parameters.get(self.config, name)
+            self.config = self.progress.config = parameters.put(self.config, name, new)
+            if hasattr(self, "objective"):
+                self.objective.weights = self.config.weights
+            for group in self.optimiser.param_groups if hasattr(self, "optimiser") else ():
+                group["start_lr"] = start_rate(group["kind"], self.config.rates)
+        self.changes.append(ParameterChanged(*self.clock.now(), self.progress.step, name, old, new))
+        return self.changes[-1]
+
+    def checkpoint(self) -> Checkpointed | None:
+        """Write a checkpoint now; None before the first step or without a run folder. Raises GenmojoError("io")."""
+        return next(self._checkpoint(), None) if hasattr(self, "guard") else None
 
     def __iter__(self) -> Iterator[Event]:
         """The events; see the class."""
@@ -100,7 +137,12 @@ class Run:
         self._build(lift(self.clip, self.plan, self.config, first_poses(self.clip)), [])
         yield Preview(*self.clock.now(), "first scene", 0, self.reference, self._reference_psnr())
         yield StageStarted(*self.clock.now(), "motion", 0, "following every object through the clip")
-        motions, doubts = usable_motion(self.clip, initial_motion(self.clip))
+        motions = initial_motion(self.clip, deadline=self._motion_deadline())
+        if any(motion.hurried for motion in motions):
+            yield Warned(
+                *self.clock.now(), "motion_cut", "there was no time to follow every object exactly; give more budget"
+            )
+        motions, doubts = usable_motion(self.clip, motions)
         for message in doubts:
             yield Warned(*self.clock.now(), "motion_not_found", message)
         lifted = lift(self.clip, self.plan, self.config, motions)
@@ -120,6 +162,11 @@ class Run:
         yield from self._checkpoint()
         reason = "interrupted" if self.stopped else "budget" if self.progress.out_of_time(self.clock) else "done"
         yield Finished(*self.clock.now(), self.progress.step, reason, {"psnr_held_out": self.progress.psnr()})
+
+    def _motion_deadline(self) -> Deadline:
+        """The initial motion takes at most a share of the budget, and ends when the run is stopped."""
+        left = MOTION_SHARE * self.config.budget_seconds - self.clock.this_run()
+        return Deadline(time.perf_counter() + left, lambda: self.stopped)
 
     def _build(self, lifted: Lifted, tracks: list[TrackSupervision]) -> None:
         """The scene and what it is compared with."""
@@ -227,7 +274,8 @@ class Run:
         ]
 
     def _over(self) -> bool:
-        return self.stopped or self.progress.out_of_time(self.clock)
+        limit = self.step_limit is not None and self.progress.step >= self.step_limit
+        return self.stopped or limit or self.progress.out_of_time(self.clock)
 
     def _checkpoint(self) -> Iterator[Event]:
         if self.run_dir is None:

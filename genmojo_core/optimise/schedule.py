@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 
-from genmojo_core.config import RunConfig
+from genmojo_core.config import LearningRates, RunConfig
 from genmojo_core.scene.scene4d import Scene4D
 
 FINAL_RATE = 0.1  # of the first learning rate, reached at the end
@@ -57,20 +57,22 @@ def make_optimiser(scene: Scene4D, config: RunConfig) -> torch.optim.AdamW:
 
     Decay on opacity logits and placements would shrink them for no reason (METHOD.md section 2).
     """
-    rates = config.rates
     groups: dict[str, list[torch.nn.Parameter]] = {}
-    sizes = {"means": rates.means, "log_scales": rates.log_scales, "quats": rates.quats,
-             "logit_opacities": rates.logit_opacities, "dc": rates.dc, "planes": rates.planes, "heads": rates.heads,
-             "bases": rates.bases, "placement": rates.placement, "log_gain": rates.delta_color}  # fmt: skip
     for name, parameter in scene.named_parameters():
         if parameter.requires_grad:
             groups.setdefault(_kind(name), []).append(parameter)
+    sizes = {kind: start_rate(kind, config.rates) for kind in groups}
     rows = [
         {"params": members, "lr": sizes[kind], "start_lr": sizes[kind], "kind": kind,
          "weight_decay": 0.01 if kind in ("planes", "heads") else 0.0}
         for kind, members in groups.items()
     ]  # fmt: skip
     return torch.optim.AdamW(rows, eps=1e-15, betas=(0.9, 0.99), fused=True)
+
+
+def start_rate(kind: str, rates: LearningRates) -> float:
+    """First learning rate of a group of parameters; the frame's gain is a change of colour."""
+    return float(getattr(rates, "delta_color" if kind == "log_gain" else kind))
 
 
 def set_rates(optimiser: torch.optim.Optimizer, progress: float) -> None:
