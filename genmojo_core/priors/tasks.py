@@ -1,0 +1,77 @@
+"""What the two networks of the embedded prior learn, and the figures that say how far they are."""
+
+from __future__ import annotations
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from genmojo_core.priors.batches import Batch
+from genmojo_core.priors.volume import GREY, Rays, VolumeNet, render
+
+RAYS = 200  # per view and step
+ALPHA_WEIGHT = 0.5
+
+
+class VolumeTask:
+    """Squared error of rendered rays: colour on grey, and coverage."""
+
+    name = "volume"
+
+    def __init__(self, net: VolumeNet) -> None:
+        self.net = net
+
+    def loss(self, batch: Batch, generator: torch.Generator) -> Tensor:
+        """Mean squared error over random rays of all views."""
+        side = batch.targets.shape[-1]
+        device = batch.targets.device
+        views = batch.targets.shape[:2]
+        index = torch.randint(0, side * side, (*views, RAYS), generator=generator, device=device)
+        xy = torch.stack([index % side, index // side], dim=-1)
+        xy = (xy + 0.5) / side * 2.0 - 1.0
+        drawn = render(self.net(batch.condition, batch.facts), Rays(batch.to_space, batch.distance, xy), 24, generator)
+        wanted = batch.targets.flatten(3).gather(3, index[:, :, None].expand(-1, -1, 4, -1)).transpose(2, 3)
+        error = drawn[..., :4] - wanted
+        alpha = error[..., 3]
+        color = error[..., :3] - GREY * alpha[..., None]
+        return (color**2).mean() + ALPHA_WEIGHT * (alpha**2).mean()
+
+    def measure(self, batch: Batch) -> dict[str, float]:
+        """PSNR on grey, PSNR inside the union of silhouettes, mask IoU."""
+        return scores(self.predict(batch), batch.targets)
+
+    def predict(self, batch: Batch) -> Tensor:
+        """(B, K, 4, S, S) premultiplied mean pictures."""
+        return self.mean_and_depth(batch)[:, :, :4]
+
+    def mean_and_depth(self, batch: Batch) -> Tensor:
+        """(B, K, 5, S, S): premultiplied RGB, alpha, premultiplied depth."""
+        side = batch.targets.shape[-1]
+        pictures = []
+        for i in range(0, len(batch.condition), 16):
+            rows = slice(i, i + 16)
+            part = Batch(*(getattr(batch, n)[rows] for n in Batch.__dataclass_fields__))
+            drawn = render(self.net(part.condition, part.facts), part.rays(side))
+            pictures.append(drawn.transpose(2, 3).unflatten(3, (side, side)))
+        return torch.cat(pictures)
+
+
+def scores(predicted: Tensor, wanted: Tensor) -> dict[str, float]:
+    """Figures of pictures (B, K, 4, S, S), premultiplied RGBA.
+
+    psnr: mean over pictures of the PSNR on grey, dB. inside: the same over pixels of either silhouette. iou: mean.
+    """
+    predicted = predicted.clamp(0, 1)
+    error = predicted - wanted
+    squared = ((error[:, :, :3] - GREY * error[:, :, 3:]) ** 2).mean(2)
+    ours, theirs = predicted[:, :, 3] > 0.5, wanted[:, :, 3] > 0.5
+    both, either = (ours & theirs).sum((2, 3)), ours | theirs
+    psnr = decibels(squared.mean((2, 3)))
+    inside = decibels((squared * either).sum((2, 3)) / either.sum((2, 3)).clamp(min=1))
+    iou = both / either.sum((2, 3)).clamp(min=1)
+    return {"psnr": float(psnr.mean()), "inside": float(inside.mean()), "iou": float(iou.float().mean())}
+
+
+def decibels(squared: Tensor) -> Tensor:
+    """PSNR of mean squared errors against a range of 1; 100 dB at most."""
+    return torch.from_numpy(-10.0 * np.log10(np.maximum(squared.detach().cpu().double().numpy(), 1e-10)))
