@@ -78,6 +78,10 @@ class ActionTable:
     def __getitem__(self, action_id: str) -> Action:
         return self._actions[action_id]
 
+    def has(self, action_id: str) -> bool:
+        """True for an action of this table."""
+        return action_id in self._actions
+
     def bind(
         self,
         action_id: str,

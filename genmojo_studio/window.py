@@ -1,0 +1,255 @@
+"""The one window: start page, the two workspaces, menus, opening and closing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Protocol, cast
+
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+from PySide6.QtWidgets import QApplication, QFileDialog, QMainWindow, QStackedWidget, QWidget
+
+from genmojo_core.clip.clip import Clip
+from genmojo_core.errors import GenmojoError
+from genmojo_studio import notify, opening, theme
+from genmojo_studio.about import About
+from genmojo_studio.actions import ActionTable
+from genmojo_studio.background import Tasks
+from genmojo_studio.header import Header
+from genmojo_studio.menus import Menus
+from genmojo_studio.palette import Palette
+from genmojo_studio.settings import Settings, data_folder
+from genmojo_studio.shortcuts import KeyEditor, KeySheet
+from genmojo_studio.state import AppState
+from genmojo_studio.translate import tr
+from genmojo_studio.watchdog import Watchdog
+from genmojo_studio.welcome import Welcome
+
+SHARED_SHORT_SIDE = 540  # pixels at which the shared clip is held; annotation reads full frames on its own
+DEMO_CLIP = "crossing-shapes"
+
+
+class Workspace(Protocol):
+    """What the window asks of a workspace, besides being a QMainWindow."""
+
+    def open_clip(self, path: Path) -> None:
+        """Shows a clip (or a project); the shared state already holds a clip that was read."""
+        ...
+
+    def close(self) -> bool:
+        """Asks to close; False keeps the window open."""
+        ...
+
+    def save_layout(self) -> None:
+        """Remembers where the panels are."""
+        ...
+
+    def restore_layout(self) -> None:
+        """Puts the panels where they were."""
+        ...
+
+
+class MainWindow(QMainWindow):
+    """The window. Workspaces are made when they are first shown."""
+
+    def __init__(self, state: AppState, table: ActionTable, settings: Settings) -> None:
+        super().__init__()
+        self.state = state
+        self.table = table
+        self.settings = settings
+        self.tasks = Tasks(self, threads=2)
+        self.watchdog = Watchdog(self)
+        self.workspaces: dict[str, Workspace] = {}
+        self._shown_clips: dict[str, Path | None] = {}
+        self.workspace = ""
+        self.setWindowTitle("GenMOJO Studio")
+        self.setAcceptDrops(True)
+        self.resize(1500, 900)
+        self.welcome = Welcome()
+        self.stack = QStackedWidget()
+        self.stack.addWidget(self.welcome)
+        self.setCentralWidget(self.stack)
+        self.header = Header()
+        self.addToolBar(self.header)
+        self._connect()
+        self.menus = Menus(self, table)
+        self.show_workspace("")
+        geometry = settings.layout("window")
+        if geometry is not None:
+            self.restoreGeometry(geometry)
+
+    def show_workspace(self, name: str) -> None:
+        """Brings "annotate", "watch" or the start page ("") to the front."""
+        if name and name not in self.workspaces:
+            made = _make_workspace(name, self.state, self.table)
+            self.workspaces[name] = made
+            self.stack.addWidget(cast(QWidget, made))
+            made.restore_layout()
+        self.workspace = name
+        self.welcome.show_recent(self.settings.recent())
+        self.stack.setCurrentWidget(cast(QWidget, self.workspaces[name]) if name else self.welcome)
+        self.header.show_workspace(name)
+        self.menus.set_workspace(name)
+        path = self.state.clip_path
+        if name and path is not None and self._shown_clips.get(name) != path:
+            self._shown_clips[name] = path
+            self.workspaces[name].open_clip(path)
+
+    def open_path(self, path: Path) -> None:
+        """Opens whatever lies there; faults are told in a dialog."""
+        path = path.absolute()
+        try:
+            kind = opening.kind_of(path)
+        except GenmojoError as error:
+            notify.tell(error, self)
+            return
+        self.settings.add_recent(path)
+        if kind == "clip":
+            self.read_clip(path, self.workspace or "watch")
+        elif kind == "project":
+            self.show_workspace("annotate")
+            self._shown_clips["annotate"] = path
+            self.workspaces["annotate"].open_clip(path)
+        else:
+            self.show_workspace("watch")
+            cast(Any, self.workspaces["watch"]).open_path(path, kind)
+
+    def read_clip(self, path: Path, workspace: str) -> None:
+        """Reads a clip on a thread and shows it in a workspace."""
+        self.header.say(tr("Reading {name} …").format(name=path.name), busy=True)
+        self.tasks.run(
+            lambda: _read_clip(path), lambda clip: self._clip_read(clip, path, workspace), self._reading_failed
+        )
+
+    def open_demo(self) -> None:
+        """Makes the demo clip (the same bytes every time) and opens it."""
+        self.header.say(tr("Making the demo clip …"), busy=True)
+        self.tasks.run(_write_demo, self.open_path, self._reading_failed)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Asks the workspaces; one that says no keeps everything as it is."""
+        for workspace in self.workspaces.values():
+            workspace.save_layout()
+            if not workspace.close():
+                event.ignore()
+                return
+        self.settings.put_layout("window", self.saveGeometry())
+        self.tasks.close()
+        event.accept()
+        QApplication.quit()
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Files and folders may be dropped anywhere."""
+        if any(url.isLocalFile() for url in event.mimeData().urls()):
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Opens what was dropped."""
+        event.acceptProposedAction()
+        for url in event.mimeData().urls()[:1]:
+            self.open_path(Path(url.toLocalFile()))
+
+    def _connect(self) -> None:
+        self.welcome.demo_wanted.connect(self.open_demo)
+        self.welcome.folder_wanted.connect(self._ask_folder)
+        self.welcome.file_wanted.connect(self._ask_file)
+        self.welcome.path_wanted.connect(lambda path: self.open_path(Path(path)))
+        self.header.workspace_wanted.connect(self.show_workspace)
+        self.header.palette_wanted.connect(self._show_palette)
+        bind = self.table.bind
+        bind("file.open_clip", self._ask_folder)
+        bind("file.open", self._ask_file)
+        bind("file.demo", self.open_demo)
+        bind("file.close", lambda: self.show_workspace(""))
+        bind("file.settings", lambda: KeyEditor(self.table, self.settings, self).exec())
+        bind("file.quit", self.close)
+        bind("window.annotate", lambda: self.show_workspace("annotate"))
+        bind("window.watch", lambda: self.show_workspace("watch"))
+        bind("window.theme", self._switch_theme, checked=lambda: self.state.theme == "light")
+        bind("window.full_screen", self._switch_full_screen, checked=self.isFullScreen)
+        bind("window.reset", self._reset_layout, lambda: bool(self.workspace))
+        bind("help.palette", self._show_palette)
+        bind("help.keys", lambda: KeySheet(self.table, self.workspace, self).exec())
+        bind("help.crash", self._show_crashes, lambda: bool(notify.crash_reports(data_folder() / "crashes")))
+        bind("help.about", lambda: About(self).exec())
+        self.state.subscribe(self._show_title, "clip", "clip_path", "scene_path")
+
+    def _clip_read(self, clip: Clip, path: Path, workspace: str) -> None:
+        self.header.say("")
+        self.state.open_clip(clip, path)
+        self.show_workspace(workspace)
+
+    def _reading_failed(self, error: BaseException) -> None:
+        self.header.say("")
+        notify.tell(error, self)
+
+    def _ask_folder(self) -> None:
+        chosen = QFileDialog.getExistingDirectory(self, tr("Open a clip folder"), self._last_folder())
+        if chosen:
+            self.open_path(Path(chosen))
+
+    def _ask_file(self) -> None:
+        chosen, _ = QFileDialog.getOpenFileName(self, tr("Open a file"), self._last_folder(), opening.file_filter())
+        if chosen:
+            self.open_path(Path(chosen))
+
+    def _last_folder(self) -> str:
+        return next((str(path.parent) for path in self.settings.recent()), str(Path.home()))
+
+    def _show_palette(self) -> None:
+        palette = Palette(self.table, self.workspace, self)
+        corner = self.mapToGlobal(self.rect().topLeft())
+        palette.move(corner.x() + (self.width() - palette.width()) // 2, corner.y() + 70)
+        palette.exec()
+        if palette.chosen:
+            self.table.trigger(palette.chosen)
+
+    def _switch_theme(self) -> None:
+        self.state.set(theme="dark" if self.state.theme == "light" else "light")
+        self.settings.put("theme", self.state.theme)
+        application = QApplication.instance()
+        if isinstance(application, QApplication):
+            theme.apply(application, self.state.theme)
+
+    def _switch_full_screen(self) -> None:
+        self.showNormal() if self.isFullScreen() else self.showFullScreen()
+
+    def _reset_layout(self) -> None:
+        self.settings.forget_layouts()
+        self.workspaces[self.workspace].restore_layout()
+
+    def _show_crashes(self) -> None:
+        reports = notify.crash_reports(data_folder() / "crashes")
+        text = "\n\n".join(report.read_text(errors="replace")[:4000] for report in reports[:3])
+        notify.show_dialog(self, tr("Reports of earlier crashes"), "\n".join(map(str, reports[:3])), text)
+
+    def _show_title(self) -> None:
+        shown = self.state.clip_path or self.state.scene_path
+        self.header.show_name(shown.name if shown else "")
+        self.setWindowTitle(f"{shown.name} – GenMOJO Studio" if shown else "GenMOJO Studio")
+
+
+def _make_workspace(name: str, state: AppState, table: ActionTable) -> Workspace:
+    """Imported when first shown: they pull in OpenGL, plots and readers that the start page does not need."""
+    if name == "annotate":
+        from genmojo_studio.annotate.workspace import AnnotateWorkspace
+
+        return AnnotateWorkspace(state, table)
+    from genmojo_studio.watch.workspace import WatchWorkspace
+
+    return WatchWorkspace(state, table)
+
+
+def _read_clip(path: Path) -> Clip:
+    from genmojo_core.clip import folders
+
+    return folders.read(path, short_side=SHARED_SHORT_SIDE)
+
+
+def _write_demo() -> Path:
+    from genmojo_core.clip import synthetic, synthetic_files
+
+    folder = data_folder() / "demo" / DEMO_CLIP
+    if not (folder / "truth.npz").exists():
+        clip, truth = synthetic.generate(DEMO_CLIP)
+        synthetic_files.write(clip, truth, folder)
+    return folder
