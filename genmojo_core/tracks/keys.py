@@ -53,7 +53,7 @@ def set_key(
         new.xy[free] += moved[free]
     new.xy[t] = xy
     new.state[t] = state if state is not None else (cells.state[t] if known[t] else VISIBLE)
-    new.flags[t] = (cells.flags[t] & ~UNCERTAIN & ~SNAPPED) | KEY | CONFIRMED | (SNAPPED if snapped else 0)
+    new.flags[t] = (int(cells.flags[t]) & ~(UNCERTAIN | SNAPPED)) | KEY | CONFIRMED | (SNAPPED if snapped else 0)
     if state is not None and state != cells.state[t]:
         new.flags[t] |= PAINTED
     new.source[t], new.conf[t] = HUMAN, 1.0
@@ -67,7 +67,7 @@ def remove_key(annotation: Annotation, track: int, t: int) -> Edit:
     if not cells.flags[t] & KEY:
         raise GenmojoError("argument", f"{_name(annotation, track)} has no key in frame {t}")
     new = cells.copy()
-    new.flags[t] &= ~(KEY | CONFIRMED | SNAPPED) & 0xFF
+    new.flags[t] &= 0xFF ^ (KEY | CONFIRMED | SNAPPED)
     new.conf[t], new.mode[t] = 0.5, BY_TRACKER
     around = [k for k in _neighbours(annotation, track, t) if k is not None]
     return _edit(annotation, "unkey", f"Delete the key of {_name(annotation, track)}", track, t, _by_rule(new, around))

@@ -1,0 +1,239 @@
+"""Projects: undo and redo through restarts, branches, two programs, damaged files, full disks, old backups."""
+
+from __future__ import annotations
+
+import sqlite3
+import time
+from pathlib import Path
+
+import annotations
+import numpy as np
+import pytest
+
+from genmojo_core.errors import GenmojoError
+from genmojo_core.store import project_file
+from genmojo_core.store.project import Project, info_of
+from genmojo_core.tracks import edit_tracks, keys
+from genmojo_core.tracks.annotation import TRACKER, Annotation, ObjectInfo, Proposal
+
+
+def begun(path: Path, frames: int = 24, points: int = 3) -> Project:
+    project = Project.create(path, info_of(frames, annotations.SIZE, "demo"), person="Ada")
+    project.do(edit_tracks.put_objects(project.annotation, [ObjectInfo(1, "dog", 1, "chosen")]))
+    for number in range(points):
+        project.do(edit_tracks.add_track(project.annotation, 1, number + 1))
+    return project
+
+
+def random_history(project: Project, edits: int, seed: int) -> None:
+    """Edits with an undo or redo now and then, so that the history branches."""
+    rng = np.random.default_rng(seed)
+    for _ in range(edits):
+        action = rng.integers(10)
+        if action == 0:
+            project.undo()
+        elif action == 1:
+            project.redo()
+        else:
+            project.do(annotations.random_edit(project.annotation, rng))
+
+
+def check_undo_all_redo_all(path: Path, edits: int, seed: int) -> None:
+    project = begun(path)
+    random_history(project, edits, seed)
+    while project.redo() is not None:
+        pass
+    full = project.annotation.digest()
+    while project.undo() is not None:
+        pass
+    empty = project.annotation.digest()
+    assert empty == Annotation(24, annotations.SIZE).digest()
+    while project.redo() is not None:
+        pass
+    assert project.annotation.digest() == full
+    project.close()
+    again = Project.open(path, backup=False)
+    assert again.annotation.digest() == full
+    assert project_file.verify(path) == []
+    while again.undo() is not None:
+        pass
+    assert again.annotation.digest() == empty
+    again.close()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_undoing_and_redoing_everything_gives_the_same_annotation_also_after_a_restart(
+    tmp_path: Path, seed: int
+) -> None:
+    check_undo_all_redo_all(tmp_path / "p.genmojo", 150, seed)
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1800)
+@pytest.mark.parametrize("seed", range(50))
+def test_fifty_histories_of_a_thousand_edits(tmp_path: Path, seed: int) -> None:
+    check_undo_all_redo_all(tmp_path / "p.genmojo", 1000, seed + 100)
+
+
+def test_undo_names_the_frame_and_track_to_look_at_even_after_a_restart(tmp_path: Path) -> None:
+    project = begun(tmp_path / "p.genmojo")
+    project.do(keys.set_key(project.annotation, 2, 7, (10.0, 20.0)))
+    project.do(keys.set_key(project.annotation, 3, 15, (30.0, 40.0)))
+    project.close()
+    project = Project.open(tmp_path / "p.genmojo")
+    first = project.undo()
+    second = project.undo()
+    assert (first.frame, first.track, first.titles) == (15, 3, ("Place point 3 of dog",))
+    assert (second.frame, second.track) == (7, 2)
+    project.close()
+    project = Project.open(tmp_path / "p.genmojo")
+    assert project.redo().frame == 7
+    assert project.annotation.track(2).xy[7].tolist() == [10.0, 20.0]
+    project.close()
+
+
+def test_what_a_tracker_answers_is_undone_with_the_key_it_answers(tmp_path: Path) -> None:
+    project = begun(tmp_path / "p.genmojo")
+    before = project.annotation.digest()
+    step = project.do(keys.set_key(project.annotation, 1, 5, (10.0, 20.0)))
+    rng = np.random.default_rng(0)
+    project.do(annotations.solution(project.annotation, 1, np.arange(24), rng), step=step)
+    project.undo()
+    assert project.annotation.digest() == before
+    assert project.do(annotations.solution(project.annotation, 1, np.arange(24), rng), step=step) is None
+    assert project.annotation.digest() == before
+    project.close()
+
+
+def test_another_branch_can_be_returned_to(tmp_path: Path) -> None:
+    project = begun(tmp_path / "p.genmojo")
+    project.do(keys.set_key(project.annotation, 1, 5, (10.0, 20.0)))
+    left, kept = project.log.head, project.annotation.digest()
+    project.undo()
+    project.do(keys.set_key(project.annotation, 1, 9, (1.0, 2.0)))
+    project.do(keys.set_key(project.annotation, 1, 10, (1.0, 3.0)))
+    other = project.annotation.digest()
+    project.go_to(left)
+    assert project.annotation.digest() == kept
+    project.undo()
+    assert project.redo().frame == 5
+    project.go_to(project.history()[-1].seq)
+    assert project.annotation.digest() == other
+    project.close()
+
+
+def test_named_states_can_be_returned_to(tmp_path: Path) -> None:
+    project = begun(tmp_path / "p.genmojo")
+    project.do(keys.set_key(project.annotation, 1, 5, (10.0, 20.0)))
+    named = project.annotation.digest()
+    project.checkpoint("first pass")
+    project.do(keys.set_key(project.annotation, 1, 9, (1.0, 2.0)))
+    project.go_to(project.checkpoints()[0].parent)
+    assert project.annotation.digest() == named
+    assert len(project_file.backups(project.path)) == 1
+    project.close()
+
+
+def test_the_second_program_may_look_but_not_write(tmp_path: Path) -> None:
+    project = begun(tmp_path / "p.genmojo")
+    project.do(keys.set_key(project.annotation, 1, 5, (10.0, 20.0)))
+    project.wait()
+    second = Project.open(tmp_path / "p.genmojo")
+    assert second.read_only
+    assert second.annotation.digest() == project.annotation.digest()
+    with pytest.raises(GenmojoError, match="another program"):
+        second.do(keys.set_key(second.annotation, 1, 6, (1.0, 1.0)))
+    project.close()
+    second.close()
+    third = Project.open(tmp_path / "p.genmojo")
+    assert not third.read_only
+    third.close()
+
+
+def test_proposals_are_kept_untouched(tmp_path: Path) -> None:
+    project = begun(tmp_path / "p.genmojo")
+    rng = np.random.default_rng(1)
+    made = Proposal("optical", rng.uniform(0, 99, (24, 2)).astype(np.float32), np.ones(24, np.uint8),
+                    np.ones(24, np.float32))  # fmt: skip
+    project.propose(1, made)
+    project.do(keys.accept(project.annotation, {1: made}, TRACKER))
+    project.do(keys.set_key(project.annotation, 1, 5, (10.0, 20.0)))
+    project.close()
+    again = Project.open(tmp_path / "p.genmojo")
+    assert np.array_equal(again.annotation.proposals[1]["optical"].xy, made.xy)
+    again.close()
+
+
+def test_edits_are_on_the_disk_within_a_fifth_of_a_second(tmp_path: Path) -> None:
+    project = begun(tmp_path / "p.genmojo")
+    delays: list[float] = []
+    project.saved = lambda seq, seconds: delays.append(seconds)
+    rng = np.random.default_rng(0)
+    for _ in range(150):
+        project.do(annotations.random_edit(project.annotation, rng))
+        time.sleep(0.002)
+    assert project.wait()
+    assert len(delays) > 100
+    assert np.quantile(delays, 0.99) < 0.2
+    project.close()
+
+
+def test_a_changed_row_is_found(tmp_path: Path) -> None:
+    project = begun(tmp_path / "p.genmojo")
+    project.do(keys.set_key(project.annotation, 1, 5, (10.0, 20.0)))
+    project.close()
+    with sqlite3.connect(tmp_path / "p.genmojo") as connection:
+        connection.execute("UPDATE edits SET who = 'Eve' WHERE seq = 3")
+    connection.close()
+    assert len(project_file.verify(tmp_path / "p.genmojo")) == 1
+
+
+def test_files_that_are_no_sound_project_are_refused_in_one_sentence(tmp_path: Path) -> None:
+    with pytest.raises(GenmojoError, match="does not exist"):
+        Project.open(tmp_path / "none.genmojo")
+    (tmp_path / "text.genmojo").write_bytes(b"hello" * 1000)
+    with pytest.raises(GenmojoError, match="no project"):
+        Project.open(tmp_path / "text.genmojo")
+    begun(tmp_path / "new.genmojo").close()
+    with sqlite3.connect(tmp_path / "new.genmojo") as connection:
+        connection.execute("PRAGMA user_version=9")
+    connection.close()
+    with pytest.raises(GenmojoError, match="version 9, this program knows up to 1"):
+        Project.open(tmp_path / "new.genmojo")
+    with pytest.raises(GenmojoError, match="exists already"):
+        begun(tmp_path / "new.genmojo")
+
+
+def test_a_damaged_shortcut_is_not_needed(tmp_path: Path) -> None:
+    project = begun(tmp_path / "p.genmojo")
+    random_history(project, 40, 5)
+    expected = project.annotation.digest()
+    project.close()
+    with sqlite3.connect(tmp_path / "p.genmojo") as connection:
+        connection.execute("UPDATE blobs SET data = x'00' WHERE name LIKE 'snapshot:%'")
+    connection.close()
+    project = Project.open(tmp_path / "p.genmojo")
+    assert project.annotation.digest() == expected
+    project.close()
+
+
+def test_what_cannot_be_written_is_said_kept_and_can_be_saved_elsewhere(tmp_path: Path) -> None:
+    project = begun(tmp_path / "p.genmojo")
+    project.wait()
+    heard: list[GenmojoError] = []
+    project.failed = heard.append
+    blocker = sqlite3.connect(tmp_path / "p.genmojo", isolation_level=None)
+    blocker.execute("CREATE TRIGGER full BEFORE INSERT ON edits BEGIN SELECT RAISE(FAIL, 'disk is full'); END")
+    project.do(keys.set_key(project.annotation, 1, 5, (10.0, 20.0)))
+    assert not project.wait()
+    assert "disk is full" in heard[0].sentence()
+    blocker.execute("DROP TRIGGER full")
+    project.save_copy(tmp_path / "copy.genmojo")
+    copied = Project.open(tmp_path / "copy.genmojo")
+    assert copied.annotation.digest() == project.annotation.digest()
+    copied.close()
+    project.do(keys.set_key(project.annotation, 1, 6, (10.0, 20.0)))
+    assert project.wait()
+    project.close()
+    blocker.close()
+    assert project_file.load(tmp_path / "p.genmojo").annotation.digest() == project.annotation.digest()
