@@ -88,7 +88,8 @@ def cells_change(annotation: Annotation, track: int, frames: np.ndarray, after: 
     before = annotation.cells(track, frames)
     differs = np.zeros(len(frames), bool)
     for old, new in zip(before.arrays(), after.arrays(), strict=True):
-        differs |= (old != new).reshape(len(frames), -1).any(axis=1)
+        unequal = old != new
+        differs |= unequal.any(axis=1) if unequal.ndim > 1 else unequal
     if not differs.any():
         return None
     return CellsChange(track, frames[differs], _rows(before, differs), _rows(after, differs))
