@@ -277,7 +277,7 @@ class Run:
         limit = self.step_limit is not None and self.progress.step >= self.step_limit
         return self.stopped or limit or self.progress.out_of_time(self.clock)
 
-    def _checkpoint(self) -> Iterator[Event]:
+    def _checkpoint(self) -> Iterator[Checkpointed]:
         if self.run_dir is None:
             return
         wall, cpu = self.clock.now()

@@ -6,12 +6,12 @@ import time
 
 import numpy as np
 import pytest
-from tests.optimise.small_runs import small_clip, small_run
 
 from genmojo_core import events
 from genmojo_core.errors import GenmojoError
 from genmojo_core.optimise import checkpoint, parameters
 from genmojo_core.optimise.progress import Clock
+from tests.optimise.small_runs import small_clip, small_run
 
 
 def until_step(run, step):
