@@ -8,7 +8,7 @@ from __future__ import annotations
 from genmojo_studio.actions import Action
 
 WORKSPACE = "annotate"
-MENUS = {"move": "Go", "point": "Point", "track": "Track", "view": "View", "edit": "Edit", "review": "Review",
+MENUS = {"move": "Go", "point": "Points", "track": "Tracks", "view": "View", "edit": "Edit", "review": "Review",
          "file": "File", "step": "Go/Step"}  # fmt: skip
 
 

@@ -1,0 +1,97 @@
+"""From the annotation to what is drawn: marks, trails and outlines of one frame, looked up without any search."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from genmojo_core.tracks.annotation import FrameView
+from genmojo_core.tracks.model import NONE
+from genmojo_studio.annotate.overlay import DETAILED, Mark, Picture, contours_of
+from genmojo_studio.annotate.session import Session
+
+
+class Presenter:
+    """Builds the `Picture` of a frame; keeps outlines of masks and the colours of tracks between frames."""
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self._contours: dict[int, dict] = {}
+        self._owners: dict[int, tuple[int, int]] = {}
+        self._revision = -1
+
+    def picture(self, frame: int) -> Picture:
+        """What is shown over a frame."""
+        session = self._session
+        self._refresh()
+        view = session.annotation.at(frame)
+        detailed = self._detailed(view)
+        marks = [self._mark(view, n, frame) for n in detailed]
+        painting = session.painting
+        if painting is not None and painting.run()[0] <= frame <= painting.run()[1]:
+            marks = [m if m.track != painting.track else _with_state(m, painting.state) for m in marks]
+        rest = np.ones(len(view.ids), bool)
+        rest[detailed] = False
+        return Picture(
+            marks, view.xy[rest], self._trails(marks, frame), self.contours(frame), session.mask_mode,
+            session.track, session.active[0],
+        )  # fmt: skip
+
+    def contours(self, frame: int) -> dict:
+        """Outlines of the objects in a frame, as `contours_of`."""
+        labels = self._session.cache.mask(frame)
+        if labels is None or not self._session.mask_mode:
+            return {}
+        if frame not in self._contours:
+            if len(self._contours) > 400:
+                self._contours.clear()
+            ids = [o.id for o in self._session.objects()]
+            ids += [i for i in self._session.annotation.objects if i not in ids]
+            self._contours[frame] = contours_of(labels, {i: n for n, i in enumerate(ids)})
+        return self._contours[frame]
+
+    def forget_masks(self) -> None:
+        """Masks have changed."""
+        self._contours.clear()
+
+    def _refresh(self) -> None:
+        """Owners of all tracks, once per edit rather than once per frame."""
+        annotation = self._session.annotation
+        if annotation.revision == self._revision:
+            return
+        self._revision = annotation.revision
+        places = {o.id: n for n, o in enumerate(self._session.objects())}
+        owners = {t: (places.get(i.object, len(places)), i.number - 1) for t, i in annotation.tracks.items()}
+        if {o for o, _ in owners.values()} != {o for o, _ in self._owners.values()}:
+            self._contours.clear()
+        self._owners = owners
+
+    def _detailed(self, view: FrameView) -> np.ndarray:
+        """Places in `view` of the tracks with glyphs: all if they are few, else the active object's and the first."""
+        if len(view.ids) <= DETAILED:
+            return np.arange(len(view.ids))
+        own = {i.id for i in self._session.annotation.tracks_of(self._session.active[0])} if len(view.ids) < 500 else set()
+        own |= {self._session.track or 0}
+        first = [n for n, track in enumerate(view.ids[:DETAILED].tolist()) if track not in own]
+        mine = np.flatnonzero(np.isin(view.ids, list(own)))[:DETAILED]
+        return np.concatenate([np.array(first[: DETAILED - len(mine)], int), mine])
+
+    def _mark(self, view: FrameView, n: int, frame: int) -> Mark:
+        track = int(view.ids[n])
+        place, point = self._owners.get(track, (0, 0))
+        doubt = self._session.suspicion.get(track)
+        return Mark(track, (float(view.xy[n, 0]), float(view.xy[n, 1])), int(view.state[n]), int(view.flags[n]), place,
+                    point, float(doubt[frame]) if doubt is not None and frame < len(doubt) else 0.0)  # fmt: skip
+
+    def _trails(self, marks: list[Mark], frame: int) -> list[tuple[Mark, np.ndarray, np.ndarray, int]]:
+        """Trails of the marks in one lookup."""
+        reach = self._session.trail
+        shown = [m for m in marks if m.state != NONE]
+        if not reach or not shown:
+            return []
+        first, end = max(0, frame - reach), min(self._session.annotation.frames, frame + reach + 1)
+        xy, state = self._session.annotation.window([m.track for m in shown], first, end)
+        return [(mark, xy[:, k], state[:, k], frame - first) for k, mark in enumerate(shown)]
+
+
+def _with_state(mark: Mark, state: int) -> Mark:
+    return Mark(mark.track, mark.xy, state, mark.flags, mark.place, mark.point, mark.suspicion)

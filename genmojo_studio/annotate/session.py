@@ -1,0 +1,232 @@
+"""One clip being annotated: project, frames, what is selected. Panels read it and listen; verbs change it."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal
+
+from genmojo_core.clip.clip import Clip
+from genmojo_core.errors import GenmojoError
+from genmojo_core.store.project import Project, Step
+from genmojo_core.store.project_file import ClipInfo
+from genmojo_core.tracks.annotation import Annotation, ObjectInfo, Touched
+from genmojo_core.tracks.edits import Edit
+from genmojo_studio.annotate.frame_cache import FrameCache
+from genmojo_studio.settings import data_folder
+from genmojo_studio.state import AppState
+from genmojo_studio.translate import tr
+
+POINTS = 5  # key points per object
+OBJECTS = 5  # objects per clip; both can be changed in the project's notes
+TRAILS = (0, 6, 24)  # frames on either side
+
+
+@dataclass
+class Painting:
+    """A state being painted with a key held: track, state, frames on which it began and now is."""
+
+    track: int
+    state: int
+    first: int
+    last: int
+
+    def run(self) -> tuple[int, int]:
+        """First and last frame, rising."""
+        return min(self.first, self.last), max(self.first, self.last)
+
+
+class Session(QObject):
+    """Clip, project and selection; every change is told by a signal, on the UI thread."""
+
+    frame_changed = Signal(int)  # the frame that shall be shown
+    shown = Signal()  # frame, overlay or selection must be painted again
+    edited = Signal(object)  # Touched
+    selected = Signal()
+    said = Signal(str)  # a sentence for the person
+    stored = Signal(float)  # an edit is on the disk, seconds after it was made
+    settings_changed = Signal()
+
+    def __init__(self, state: AppState, cache: FrameCache, project: Project, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.state, self.cache, self.project = state, cache, project
+        self.clip: Clip | None = None  # the whole clip at reduced size, read in the background
+        self.stride, self.trail, self.mask_mode = 2, TRAILS[1], 1
+        self.active = (0, 1)  # object id, number 1..; the point that a click places
+        self.run: tuple[int | None, int | None] = (None, None)  # marked by [ and ]
+        self.painting: Painting | None = None
+        self.suspicion: dict[int, np.ndarray] = {}  # track -> (T,) 0..1
+        self.snap = False
+        self._back: list[tuple[int, tuple[int, int]]] = []
+        self.annotation.listeners.append(self._touched)
+        project.saved = lambda _seq, seconds: self.stored.emit(seconds)
+        project.failed = lambda error: self.said.emit(str(error))
+        self._unsubscribe = state.subscribe(self._frame_moved, "frame")
+        objects = self.annotation.chosen_objects()
+        if objects:
+            self.active = (objects[0].id, 1)
+
+    # ---- what stands
+
+    @property
+    def annotation(self) -> Annotation:
+        """Objects and tracks as they stand."""
+        return self.project.annotation
+
+    @property
+    def frame(self) -> int:
+        """The frame that shall be shown."""
+        return int(self.state.frame)
+
+    @property
+    def track(self) -> int | None:
+        """The active point's track, None if it has none yet."""
+        return self.track_of(*self.active)
+
+    def track_of(self, object_id: int, number: int) -> int | None:
+        """The track of a point of an object."""
+        return next((i.id for i in self.annotation.tracks_of(object_id) if i.number == number), None)
+
+    def objects(self) -> list[ObjectInfo]:
+        """Objects that are annotated, in their order."""
+        return self.annotation.chosen_objects()
+
+    def place_of(self, object_id: int) -> int:
+        """Place of an object in that order, which gives its hue; after all others if it is not among them."""
+        ids = [o.id for o in self.objects()]
+        return ids.index(object_id) if object_id in ids else len(ids)
+
+    def limit(self, name: str) -> int:
+        """How many "objects" per clip or "points" per object this project wants."""
+        return int(self.annotation.meta.get(f"limit_{name}", OBJECTS if name == "objects" else POINTS))
+
+    def title(self, object_id: int, number: int) -> str:
+        """What a person calls a point."""
+        track = self.track_of(object_id, number)
+        owner = self.annotation.objects.get(object_id)
+        point = self.annotation.tracks[track].name if track is not None else ""
+        name = owner.name if owner else tr("object {n}").format(n=object_id)
+        return f"{name} · {number} {point}".rstrip()
+
+    # ---- going and choosing
+
+    def go(self, frame: int, *, jump: bool = False) -> None:
+        """Show a frame; a jump can be gone back from."""
+        frame = min(max(frame, 0), self.annotation.frames - 1)
+        if jump and frame != self.frame:
+            self._back = [*self._back[-99:], (self.frame, self.active)]
+        self.state.set(frame=frame)
+
+    def go_back(self) -> None:
+        """The frame and point before the last jump."""
+        if self._back:
+            frame, active = self._back.pop()
+            self.select(*active)
+            self.go(frame)
+
+    def select(self, object_id: int, number: int = 1) -> None:
+        """Make a point active."""
+        self.active = (object_id, number)
+        self.state.set(selected_object=object_id or None, selected_track=self.track)
+        self.selected.emit()
+        self.shown.emit()
+
+    def select_track(self, track: int) -> None:
+        """Make a track's point active."""
+        info = self.annotation.tracks.get(track)
+        if info is not None:
+            self.select(info.object, info.number)
+
+    # ---- changing
+
+    def do(self, edit: Edit, step: int | None = None) -> int | None:
+        """Do and store an edit; what forbids it is said. Returns the step, None if nothing was done."""
+        try:
+            return self.project.do(edit, step)
+        except GenmojoError as error:
+            self.said.emit(str(error))
+            return None
+
+    def undo(self) -> None:
+        """Take the newest step back and show where it was."""
+        self._moved(self.project.undo, tr("Undone: {title}"))
+
+    def redo(self) -> None:
+        """Do it again and show where it was."""
+        self._moved(self.project.redo, tr("Done again: {title}"))
+
+    def show_step(self, step: Step, sentence: str) -> None:
+        """Go where a step happened and say what it did."""
+        if step.track is not None and step.track in self.annotation.tracks:
+            self.select_track(step.track)
+        if step.frame is not None:
+            self.go(step.frame)
+        self.said.emit(sentence.format(title=", ".join(step.titles[:2])))
+
+    def close(self) -> None:
+        """Write everything, let go of files and threads."""
+        self._unsubscribe()
+        self.project.saved = self.project.failed = None
+        if self._touched in self.annotation.listeners:
+            self.annotation.listeners.remove(self._touched)
+        self.project.close()
+        self.cache.close()
+
+    def _moved(self, move: object, sentence: str) -> None:
+        try:
+            step = move() if callable(move) else None
+        except GenmojoError as error:
+            self.said.emit(str(error))
+            return
+        if isinstance(step, Step):
+            self.show_step(step, sentence)
+        else:
+            self.said.emit(tr("Nothing more to take back or do again."))
+
+    def _touched(self, touched: Touched) -> None:
+        if self.active[0] not in self.annotation.objects and self.objects():
+            self.active = (self.objects()[0].id, 1)
+        self.state.set(selected_track=self.track)
+        self.edited.emit(touched)
+        self.shown.emit()
+
+    def _frame_moved(self) -> None:
+        if self.painting is not None:
+            self.painting.last = self.frame
+        self.frame_changed.emit(self.frame)
+
+
+def project_path(clip_path: Path) -> Path:
+    """Where the project of a clip lies: in the app's own folder, named after the clip and where it is."""
+    where = hashlib.sha256(str(clip_path.absolute()).encode()).hexdigest()[:8]
+    return data_folder() / "projects" / f"{clip_path.absolute().name}-{where}.genmojo"
+
+
+def open_session(state: AppState, path: Path, person: str, project_file: Path | None = None) -> Session:
+    """The session of a clip or of a project file.
+
+    Raises GenmojoError as `FrameCache`, `Project.open` and `Project.create`.
+    """
+    if path.suffix == ".genmojo":
+        project = Project.open(path, person)
+        try:
+            cache = FrameCache(project.info.path)
+        except GenmojoError:
+            project.close()
+            raise
+    else:
+        cache = FrameCache(path)
+        file = project_file or project_path(path)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        info = ClipInfo(path.name, str(path.absolute()), cache.size, np.arange(cache.count), cache.seconds)
+        try:
+            project = Project.open_or_create(file, info, person)
+        except GenmojoError:
+            cache.close()
+            raise
+    if state.clip is None:
+        state.set(clip_path=Path(project.info.path), frame_count=cache.count)
+    return Session(state, cache, project)

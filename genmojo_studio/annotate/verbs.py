@@ -1,0 +1,236 @@
+"""What a person does to points and tracks, in terms of edits. Windows call these; they know no window."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from genmojo_core.errors import GenmojoError
+from genmojo_core.tracks import edit_tracks, keys
+from genmojo_core.tracks.annotation import CONFIRMED, HUMAN, KEY, SNAPPED, Cells, TrackInfo
+from genmojo_core.tracks.edits import CellsChange, Edit
+from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
+from genmojo_studio.annotate.session import Painting, Session
+from genmojo_studio.translate import tr
+
+DOUBT = 0.5  # suspicion from which Enter does not accept a point unseen
+
+
+def place(session: Session, xy: tuple[float, float], *, snapped: bool = False) -> int | None:
+    """Put the active point of the frame at a raster position, as a new track if it has none. Returns the step."""
+    object_id, number = session.active
+    track = session.track
+    if object_id not in session.annotation.objects:
+        session.said.emit(tr("Choose an object first (step 1)."))
+        return None
+    if track is None:
+        return session.do(_first_key(session, object_id, number, xy, snapped=snapped))
+    return set_key(session, track, xy, snapped=snapped)
+
+
+def set_key(session: Session, track: int, xy: tuple[float, float], *, snapped: bool = False) -> int | None:
+    """A person puts a track's point of the frame somewhere. A hidden or absent point stays so; returns the step."""
+    try:
+        edit = keys.set_key(session.annotation, track, session.frame, xy, snapped=snapped)
+    except GenmojoError as error:
+        session.said.emit(str(error))
+        return None
+    step = session.do(edit)
+    return in_work(session, track, step)
+
+
+def in_work(session: Session, track: int, step: int | None) -> int | None:
+    """A draft that a person works on is in progress, from the same step on."""
+    info = session.annotation.tracks[track]
+    if info.review == "draft" and step is not None:
+        session.do(edit_tracks.update_track(session.annotation, track, review="in_progress"), step)
+    return step
+
+
+def nudge(session: Session, dx: float, dy: float) -> int | None:
+    """Move the active point by raster pixels."""
+    track = session.track
+    if track is None:
+        return None
+    cells = session.annotation.cells(track, np.array([session.frame]))
+    if cells.state[0] == NONE:
+        return None
+    x, y = cells.xy[0]
+    return set_key(session, track, (float(x) + dx, float(y) + dy))
+
+
+def toggle_key(session: Session) -> None:
+    """The active point's place becomes a key, or an ordinary place."""
+    track = session.track
+    if track is None:
+        return
+    cells = session.annotation.cells(track, np.array([session.frame]))
+    if cells.flags[0] & KEY:
+        attempt(session, lambda: keys.remove_key(session.annotation, track, session.frame))
+    elif cells.state[0] != NONE:
+        set_key(session, track, (float(cells.xy[0, 0]), float(cells.xy[0, 1])))
+
+
+def delete_key(session: Session) -> None:
+    """The active point's key becomes an ordinary place."""
+    track = session.track
+    if track is not None:
+        attempt(session, lambda: keys.remove_key(session.annotation, track, session.frame))
+
+
+def paint(session: Session, track: int, state: int, first: int, last: int) -> int | None:
+    """A state over frames first..last, as one step."""
+    step = attempt(session, lambda: keys.set_state(session.annotation, track, first, last, state))
+    return in_work(session, track, step)
+
+
+def paint_here(session: Session, state: int) -> int | None:
+    """A state for the marked run, or for this frame; hidden where it is that state already means visible again."""
+    track = session.track
+    if track is None:
+        return None
+    first, last = marked_run(session)
+    if first == last and state != VISIBLE and session.annotation.cells(track, np.array([first])).state[0] == state:
+        state = VISIBLE
+    session.run = (None, None)
+    return paint(session, track, state, first, last)
+
+
+def begin_painting(session: Session, state: int) -> None:
+    """Paint from this frame on until `end_painting`; shown at once, stored as one step."""
+    track = session.track
+    if track is not None and session.painting is None:
+        session.painting = Painting(track, state, session.frame, session.frame)
+        session.shown.emit()
+
+
+def end_painting(session: Session) -> None:
+    """Store what was painted; a tap alone acts like `paint_here`."""
+    painting, session.painting = session.painting, None
+    if painting is None:
+        return
+    first, last = painting.run()
+    if first == last:
+        paint_here(session, painting.state)
+    else:
+        paint(session, painting.track, painting.state, first, last)
+
+
+def toggle_uncertain(session: Session) -> None:
+    """The marked run, or this frame, becomes uncertain or certain."""
+    track = session.track
+    if track is None:
+        return
+    first, last = marked_run(session)
+    session.run = (None, None)
+    on = not session.annotation.cells(track, np.array([first])).flags[0] & 2
+    attempt(session, lambda: keys.set_uncertain(session.annotation, track, first, last, bool(on)))
+
+
+def marked_run(session: Session) -> tuple[int, int]:
+    """First and last frame marked by [ and ], this frame where one is missing."""
+    first, last = (session.frame if end is None else end for end in session.run)
+    return min(first, last), max(first, last)
+
+
+def accept(session: Session, direction: int = 1) -> bool:
+    """Confirm the points of the frame that nothing speaks against, and go on.
+
+    The first suspicious point becomes active instead of going on; pressing again, with it on show, accepts it too.
+    Returns True if the frame was left.
+    """
+    annotation, frame = session.annotation, session.frame
+    view = annotation.at(frame)
+    doubtful = [t for t in view.ids.tolist() if _doubt(session, t) >= DOUBT and not _settled(session, t)]
+    asked = session.track in doubtful
+    clear = [t for t in view.ids.tolist() if t not in doubtful or t == session.track]
+    if clear:
+        session.do(keys.confirm(annotation, clear, frame))
+    left = [t for t in doubtful if t != session.track] if asked else doubtful
+    if left:
+        session.select_track(left[0])
+        session.said.emit(tr("Look at this point, then press Enter again."))
+        return False
+    session.go(frame + direction * session.stride)
+    return True
+
+
+def set_mode(session: Session) -> None:
+    """The segment around the frame: tracker, then line, then hold."""
+    track = session.track
+    if track is None:
+        return
+    start, _ = session.annotation.segment(track, session.frame)
+    mode = int(session.annotation.track(track).mode[start]) if start is not None else 0
+    names = (tr("tracker"), tr("line"), tr("hold"))
+    step = attempt(session, lambda: keys.set_mode(session.annotation, track, session.frame, (mode + 1) % 3))
+    if step is not None:
+        session.said.emit(tr("This segment is filled by: {mode}").format(mode=names[(mode + 1) % 3]))
+
+
+def clear(session: Session, *, after: bool) -> None:
+    """Forget the active track after or before the frame."""
+    track, frame, last = session.track, session.frame, session.annotation.frames - 1
+    if track is None or (frame == last if after else frame == 0):
+        return
+    run = (frame + 1, last) if after else (0, frame - 1)
+    attempt(session, lambda: keys.clear(session.annotation, track, *run))
+
+
+def toggle_lock(session: Session) -> None:
+    """Lock the active track, or unlock it."""
+    track = session.track
+    if track is not None:
+        locked = session.annotation.tracks[track].locked
+        title = tr("Unlock") if locked else tr("Lock")
+        session.do(edit_tracks.update_track(session.annotation, track, title, session.frame, locked=not locked))
+
+
+def delete_track(session: Session) -> None:
+    """Delete the active track; undo brings it back."""
+    track = session.track
+    if track is not None:
+        attempt(session, lambda: edit_tracks.delete_track(session.annotation, track))
+
+
+def attempt(session: Session, make: object) -> int | None:
+    """Make an edit and do it; what forbids it is said."""
+    try:
+        edit = make() if callable(make) else None
+    except GenmojoError as error:
+        session.said.emit(str(error))
+        return None
+    return session.do(edit) if isinstance(edit, Edit) else None
+
+
+def _first_key(session: Session, object_id: int, number: int, xy: tuple[float, float], *, snapped: bool) -> Edit:
+    """A new track with its first key, as one edit."""
+    made = edit_tracks.add_track(session.annotation, object_id, number, session.project.person)
+    track = int(made.track or 0)
+    flags = KEY | CONFIRMED | (SNAPPED if snapped else 0)
+    one = [np.array([v], np.uint8) for v in (VISIBLE, flags, HUMAN, 0)]
+    cells = Cells(np.array([xy], np.float32), one[0], one[1], one[2], np.ones(1, np.float32), one[3])
+    frames = np.array([session.frame], np.int32)
+    placed = CellsChange(track, frames, Cells.empty(1), cells)
+    owner = session.annotation.objects[object_id].name
+    return replace(made, title=tr("Place point {n} of {name}").format(n=number, name=owner),
+                   changes=(*made.changes, placed), frame=session.frame)  # fmt: skip
+
+
+def _doubt(session: Session, track: int) -> float:
+    values = session.suspicion.get(track)
+    return float(values[session.frame]) if values is not None else 0.0
+
+
+def _settled(session: Session, track: int) -> bool:
+    """True if a person has dealt with the point in this frame."""
+    flags = int(session.annotation.cells(track, np.array([session.frame])).flags[0])
+    return bool(flags & (KEY | CONFIRMED)) or _info(session, track).locked
+
+
+def _info(session: Session, track: int) -> TrackInfo:
+    return session.annotation.tracks[track]
+
+
+STATES = {"occluded": OCCLUDED, "outside": OUT_OF_VIEW, "visible": VISIBLE}
