@@ -17,7 +17,7 @@ from genmojo_core.optimise.poses import Path, exp_rotation, log_rotation
 from genmojo_core.optimise.surfaces import ObjectSurfaces
 from genmojo_core.trackers.stabilise import Matcher
 
-MOST_KEYS = 64
+MOST_KEYS = 48
 _KEYS_SHARE = 0.7  # of the time goes to the keys
 _UNCHECKED = 0.5  # confidence of a pose between keys that was not matched, of the keys'
 

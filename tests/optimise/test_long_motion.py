@@ -7,28 +7,27 @@ from dataclasses import replace
 
 import numpy as np
 
-from genmojo_core.clip.synthetic import generate
+from genmojo_core.clip.clip import Clip
+from genmojo_core.clip.synthetic import Truth, generate
 from genmojo_core.clip.synthetic_specs import spec
 from genmojo_core.estimate.complete import complete
 from genmojo_core.optimise.deadline import NO_DEADLINE, Deadline
 from genmojo_core.optimise.keyframes import MOST_KEYS, key_frames, spread_path
-from genmojo_core.optimise.motion import initial_motion
+from genmojo_core.optimise.motion import ObjectMotion, carry, initial_motion
 from genmojo_core.optimise.motion_solver import _continued
 from genmojo_core.optimise.poses import exp_rotation, log_rotation, still_path
 
 
-def small_clip(frames: int):
+def small_clip(frames: int) -> tuple[Clip, Truth]:
     return generate(replace(spec("crossing-shapes"), frames=frames, size=(96, 54), novel_every=0))
 
 
-def errors(clip, truth, motions) -> np.ndarray:
-    """(K, T) pixels between the median true track of each object and its median place by the motion's poses."""
-    found = np.stack([np.median(m.track_xy, axis=0) - np.median(m.track_xy[:, m.ref_frame], axis=0) for m in motions])
-    true = []
-    for k, motion in enumerate(motions):
-        own = truth.tracks[(truth.track_object == k + 1) & truth.visible[:, motion.ref_frame]]
-        true.append(np.median(own, axis=0) - np.median(own[:, motion.ref_frame], axis=0))
-    return np.linalg.norm(found - np.stack(true), axis=-1)
+def errors(clip: Clip, truth: Truth, motions: list[ObjectMotion]) -> np.ndarray:
+    """(P, T) distance in pixels of carried frame-0 queries to the truth."""
+    first = truth.visible[:, 0]
+    queries, owner = truth.tracks[first, 0], truth.track_object[first] - 1
+    xy = carry(motions, clip, np.zeros(len(queries), int), queries, owner)
+    return np.linalg.norm(xy - truth.tracks[first], axis=-1)
 
 
 def test_a_rotation_predicted_over_a_thousand_frames_stays_a_rotation() -> None:
@@ -40,10 +39,10 @@ def test_a_rotation_predicted_over_a_thousand_frames_stays_a_rotation() -> None:
 
 
 def test_key_frames_hold_the_reference_and_are_few() -> None:
-    for frames, ref in ((24, 5), (64, 0), (65, 64), (300, 17), (5000, 4999)):
+    for frames, ref in ((24, 5), (48, 0), (49, 48), (300, 17), (5000, 4999)):
         keys = key_frames(frames, ref)
         assert ref in keys and len(keys) <= MOST_KEYS and keys[0] >= 0 and keys[-1] < frames
-    assert len(key_frames(64, 3)) == 64
+    assert len(key_frames(48, 3)) == 48
 
 
 def test_a_path_spread_from_its_keys_goes_through_them_and_turns_evenly() -> None:
@@ -59,8 +58,9 @@ def test_a_path_spread_from_its_keys_goes_through_them_and_turns_evenly() -> Non
 
 
 def test_objects_of_a_long_clip_are_followed_between_its_key_frames() -> None:
-    clip, truth = small_clip(80)
-    motions = initial_motion(complete(clip))
+    clip, truth = small_clip(60)
+    clip = complete(clip)
+    motions = initial_motion(clip)
     assert not any(m.hurried for m in motions)
     assert np.median(errors(clip, truth, motions)) < 1.0
     assert (errors(clip, truth, motions) < 4.0).mean() > 0.9
@@ -73,7 +73,8 @@ def test_without_time_every_object_still_goes_where_its_pixels_are() -> None:
     motions = initial_motion(clip, deadline=Deadline(time.perf_counter()))
     hurried = time.perf_counter() - began
     assert all(m.hurried and np.isfinite(m.pose).all() for m in motions)
-    assert np.median(errors(clip, truth, motions)) < 4.0
+    stays = np.linalg.norm(truth.tracks - truth.tracks[:, :1], axis=-1)[truth.visible[:, 0]]
+    assert errors(clip, truth, motions).mean() < 0.5 * stays.mean()
     initial_motion(clip)
     assert hurried < 0.5 * (time.perf_counter() - began - hurried)
 
