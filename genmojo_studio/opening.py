@@ -16,7 +16,7 @@ PICTURES = (".jpg", ".jpeg", ".png", ".bmp", ".webp", ".tif", ".tiff")
 def kind_of(path: str | Path) -> Kind:
     """Which kind of thing lies there, by its name.
 
-    A folder with a `run.json` or a checkpoint is a run, any other folder a clip.
+    A folder in which a worker was asked for something is a run, any other folder a clip.
 
     Raises:
         GenmojoError("io"): nothing is there. ("format"): a file that the app does not open.
@@ -42,7 +42,7 @@ def kind_of(path: str | Path) -> Kind:
 
 def is_run(folder: Path) -> bool:
     """True for a folder in which a worker keeps a run."""
-    return any((folder / name).exists() for name in ("run.json", "worker.json", "checkpoint.npz"))
+    return any((folder / name).exists() for name in ("lock.json", "request.json", "events.jsonl"))
 
 
 def file_filter() -> str:

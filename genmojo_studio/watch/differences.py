@@ -1,11 +1,12 @@
-"""Two pictures of one frame on the same pixel grid: joined, subtracted, measured. Plain numpy."""
+"""Two pictures of one frame on the same pixel grid: joined, subtracted, measured."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
 import numpy as np
+
+from genmojo_core.measure.images import psnr
 
 
 def wipe(left: np.ndarray, right: np.ndarray, share: float) -> np.ndarray:  # (H, W, 3) uint8 each
@@ -28,19 +29,12 @@ def absolute(first: np.ndarray, second: np.ndarray, gain: float) -> np.ndarray: 
     return np.minimum(apart * gain, 255).astype(np.uint8)
 
 
-def psnr(first: np.ndarray, second: np.ndarray, chosen: np.ndarray | None = None) -> float:
-    """dB of two uint8 pictures over the chosen pixels (H, W) bool; NaN if there are none, infinite if equal."""
-    apart = (first.astype(np.float32) - second.astype(np.float32)) ** 2
-    if chosen is not None:
-        apart = apart[chosen]
-    if not apart.size:
-        return math.nan
-    error = float(apart.mean()) / 255.0**2
-    return math.inf if error == 0 else -10.0 * math.log10(error)
-
-
 def psnr_by_object(
-    first: np.ndarray, second: np.ndarray, labels: np.ndarray, ids: Mapping[int, int]
+    first: np.ndarray,  # (H, W, 3) uint8
+    second: np.ndarray,  # (H, W, 3) uint8
+    labels: np.ndarray,  # (H, W)
+    ids: Mapping[int, int],
 ) -> dict[int, float]:
-    """PSNR inside every object's mask: id -> dB; `ids` maps ids to the labels in `labels` (H, W)."""
-    return {object_id: psnr(first, second, labels == label) for object_id, label in ids.items()}
+    """PSNR in dB inside every object's mask, by id; `ids` maps ids to labels. NaN where an object has no pixel."""
+    a, b = first / np.float32(255), second / np.float32(255)
+    return {object_id: psnr(a, b, labels == label) for object_id, label in ids.items()}

@@ -1,0 +1,145 @@
+"""What a clip calls for: each effect with its measured number, threshold, reason and cost, and a box to override it."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import QProcess, Qt, Signal
+from PySide6.QtGui import QFont
+from PySide6.QtWidgets import QTreeWidget, QTreeWidgetItem, QWidget
+
+from genmojo_studio.translate import tr
+
+_NAME = Qt.ItemDataRole.UserRole
+
+
+class EffectsTable(QTreeWidget):
+    """Measures in a process of its own (`genmojo effects`), so that the window never waits.
+
+    Signals: `measured` when the table is filled, `failed(sentence)`, `changed` when a box was ticked.
+    """
+
+    measured = Signal()
+    failed = Signal(str)
+    changed = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setHeaderLabels([tr("Effect"), tr("Evidence"), tr("Cost")])
+        self.setRootIsDecorated(False)
+        self.setUniformRowHeights(True)
+        self.rows: list[dict[str, Any]] = []
+        self.guesses: list[str] = []
+        self.frames = 0
+        self._process: QProcess | None = None
+        self.itemChanged.connect(self._ticked)
+
+    def measure(self, clip: Path, preset: str) -> None:
+        """Asks what the clip calls for under a preset; an older question is dropped."""
+        self.stop()
+        process = QProcess(self)
+        process.finished.connect(self._finished)
+        process.setProcessChannelMode(QProcess.ProcessChannelMode.SeparateChannels)
+        self._process = process
+        arguments = ["-m", "genmojo_core.cli.main", "effects", str(clip), "--preset", preset, "--json"]
+        process.start(sys.executable, arguments)
+
+    def stop(self) -> None:
+        """Drops a question that is still being answered."""
+        if self._process is not None:
+            self._process.finished.disconnect(self._finished)
+            self._process.kill()
+            self._process.waitForFinished(1000)
+            self._process.deleteLater()
+            self._process = None
+
+    def show_rows(self, rows: Sequence[Mapping[str, Any]]) -> None:
+        """Fills the table with rows of `EffectPlan.to_json`."""
+        self.rows = [dict(row) for row in rows]
+        self.blockSignals(True)
+        self.clear()
+        for row in self.rows:
+            self.addTopLevelItem(_item(row))
+        self.blockSignals(False)
+        self.setColumnWidth(0, 165)
+        self.setColumnWidth(1, 150)
+
+    def chosen(self) -> list[dict[str, Any]]:
+        """The rows with `on` as the boxes say."""
+        return [{**row, "on": self._ticked_at(i)} for i, row in enumerate(self.rows)]
+
+    def overrides(self) -> dict[str, bool]:
+        """Effects whose box differs from what the evidence says."""
+        wanted = ((row, self._ticked_at(i)) for i, row in enumerate(self.rows))
+        return {str(row["name"]): on for row, on in wanted if on != bool(row["on"])}
+
+    def _ticked_at(self, row: int) -> bool:
+        item = self.topLevelItem(row)
+        return item is not None and item.checkState(0) == Qt.CheckState.Checked
+
+    def _ticked(self, item: QTreeWidgetItem) -> None:
+        row = next(row for row in self.rows if row["name"] == item.data(0, _NAME))
+        font = QFont(self.font())
+        font.setBold((item.checkState(0) == Qt.CheckState.Checked) != bool(row["on"]))
+        self.blockSignals(True)
+        item.setFont(0, font)
+        self.blockSignals(False)
+        self.changed.emit()
+
+    def _finished(self, code: int) -> None:
+        process = self._process
+        if process is None:
+            return
+        self._process = None
+        output = bytes(process.readAllStandardOutput().data()).decode(errors="replace")
+        faults = bytes(process.readAllStandardError().data()).decode(errors="replace").strip().splitlines()
+        process.deleteLater()
+        if code != 0:
+            self.failed.emit(faults[-1] if faults else tr("The clip could not be measured."))
+            return
+        answer = json.loads(output)
+        self.guesses = [str(sentence) for sentence in answer.get("guesses", [])]
+        self.frames = int(answer.get("frames", 0))
+        self.show_rows(answer["effects"])
+        self.measured.emit()
+
+
+def _item(row: Mapping[str, Any]) -> QTreeWidgetItem:
+    evidence = f"{row['evidence']:.3g} {row['unit']}"
+    bound = f"{row['threshold']:.3g}"
+    sign = "≥" if row["evidence"] >= row["threshold"] else "<"
+    item = QTreeWidgetItem([_title(str(row["name"])), f"{evidence} {sign} {bound}", f"{row['ms_per_step']:.1f} ms"])
+    item.setData(0, _NAME, row["name"])
+    item.setCheckState(0, Qt.CheckState.Checked if row["on"] else Qt.CheckState.Unchecked)
+    said = "\n".join(
+        (
+            str(row["reason"]),
+            tr("Measured {evidence}; on from {bound} ({origin}).").format(
+                evidence=evidence, bound=bound, origin=row["origin"]
+            ),
+            tr("Costs about {ms:.1f} ms per step and {mb:.1f} MB.").format(ms=row["ms_per_step"], mb=row["mb"]),
+        )
+    )
+    for column in range(3):
+        item.setToolTip(column, said)
+    return item
+
+
+def _title(name: str) -> str:
+    return {
+        "joint_occlusion": tr("Joint occlusion"),
+        "background": tr("Background"),
+        "camera_motion": tr("Camera motion"),
+        "non_rigid_motion": tr("Bending motion"),
+        "appearance_change": tr("Changing light"),
+        "unseen_views": tr("Unseen views"),
+        "instance_labels": tr("Object labels"),
+        "depth_order": tr("Depth order"),
+        "flow": tr("Optical flow"),
+        "track_supervision": tr("Point tracks"),
+        "reappearance": tr("Reappearance"),
+    }.get(name, name)
