@@ -1,0 +1,135 @@
+"""The run on show: the worker's client, what it has said so far, and the rule that ends it when it buys too little."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import QObject, Signal
+
+from genmojo_core.errors import GenmojoError
+from genmojo_studio.view3d.snapshot import SceneSnapshot
+from genmojo_studio.watch.gain import StopRule
+from genmojo_studio.watch.run_log import RunLog
+from genmojo_studio.worker.client import WorkerClient
+from genmojo_studio.worker.death import DeathReport
+from genmojo_studio.worker.protocol import RunRequest
+
+LIVE = ("starting", "ready", "running", "paused", "stepping", "stopping", "finishing", "lost")
+
+
+class RunControl(QObject):
+    """Starts, steers and follows one run at a time. States come from the worker's acknowledgements only.
+
+    Signals: `state_changed`, `log_grew`, `snapshot(SceneSnapshot)`, `died(DeathReport)`, `ended(Path)` with the scene
+    file, `failed(error)` for a command that the worker refused.
+    """
+
+    state_changed = Signal()
+    log_grew = Signal()
+    snapshot = Signal(object)
+    died = Signal(object)
+    ended = Signal(object)
+    failed = Signal(object)
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.client = WorkerClient(self)
+        self.log = RunLog()
+        self.state = ""
+        self.request: RunRequest | None = None
+        self.stop_below: float | None = None
+        self.phase = ""
+        self.view_cost = 0.0
+        self._rule = StopRule()
+        self.client.state_changed.connect(self._state)
+        self.client.event_received.connect(self._event)
+        self.client.preview_ready.connect(self._preview)
+        self.client.died.connect(self._died)
+        self.client.beat_received.connect(self._beat)
+        self.client.phase_changed.connect(self._phase)
+
+    @property
+    def live(self) -> bool:
+        """True while a worker is at it."""
+        return self.state in LIVE
+
+    @property
+    def run_dir(self) -> Path | None:
+        """The run's folder once there is one."""
+        return Path(self.client.run_dir) if self.client.run_dir else None
+
+    def start(self, request: RunRequest) -> None:
+        """Starts a worker; GenmojoErrors are told through `failed`."""
+        self._begin(request)
+        self._ask(lambda: self.client.start(request))
+
+    def attach(self, run_dir: Path) -> None:
+        """Shows a run that lives."""
+        self._begin(None)
+        self._ask(lambda: self.client.attach(str(run_dir)))
+
+    def pause_or_resume(self) -> None:
+        """Pauses a running run, lets a paused one go on."""
+        self._ask(self.client.resume if self.state == "paused" else self.client.pause)
+
+    def step(self) -> None:
+        """One step, then paused."""
+        self._ask(lambda: self.client.step(1))
+
+    def run_to_next_stage(self) -> None:
+        """Goes on and pauses where the next stage begins."""
+        self._ask(self.client.run_to_next_stage)
+
+    def checkpoint(self) -> None:
+        """Writes a checkpoint at the next step."""
+        self._ask(self.client.checkpoint)
+
+    def stop(self, keep: bool) -> None:
+        """Ends the run; `keep` writes the scene as it stands."""
+        self._ask(lambda: self.client.stop(keep))
+
+    def _begin(self, request: RunRequest | None) -> None:
+        self.log = RunLog()
+        self.request = request
+        self._rule = StopRule()
+        self.phase = ""
+        self.log_grew.emit()
+
+    def _ask(self, command: Callable[[], Any]) -> None:
+        try:
+            command()
+        except GenmojoError as error:
+            self.failed.emit(error)
+
+    def _state(self, state: str) -> None:
+        self.state = state
+        self.state_changed.emit()
+        if state == "done" and self.client.scene_path:
+            self.ended.emit(Path(self.client.scene_path))
+
+    def _event(self, event: dict[str, Any]) -> None:
+        points = len(self.log.accuracy)
+        self.log.add(event)
+        self.log_grew.emit()
+        if self.stop_below is not None and len(self.log.accuracy) > points and self.state == "running":
+            curve = [(at, value) for at, _, value in self.log.accuracy]
+            if self._rule.reached(curve, self.stop_below):
+                self.stop(keep=True)
+
+    def _preview(self, snapshot: SceneSnapshot) -> None:
+        self.snapshot.emit(snapshot)
+
+    def _beat(self, beat: dict[str, Any]) -> None:
+        if "memory_mb" in beat:
+            self.log.add_memory(float(beat["memory_mb"]))
+        self.view_cost = float(beat.get("view_cost", 0.0))
+        self.log_grew.emit()
+
+    def _phase(self, note: str) -> None:
+        self.phase = note
+        self.state_changed.emit()
+
+    def _died(self, report: DeathReport) -> None:
+        self.died.emit(report)

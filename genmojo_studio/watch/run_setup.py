@@ -1,0 +1,141 @@
+"""Before a run: preset, budget, device, effects with their evidence, and what it will take."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from PySide6.QtCore import QTimer, Signal
+from PySide6.QtWidgets import QComboBox, QFormLayout, QPushButton, QSizePolicy, QVBoxLayout, QWidget
+
+from genmojo_core.clip.clip import Clip
+from genmojo_core.config import PRESETS, RunConfig
+from genmojo_core.effects.costs import run_sizes
+from genmojo_studio.state import AppState
+from genmojo_studio.translate import tr
+from genmojo_studio.watch import forecast
+from genmojo_studio.watch.controls import dim, number, set_role
+from genmojo_studio.watch.effects_table import EffectsTable
+from genmojo_studio.worker.protocol import RunRequest
+
+_DEVICES = ("auto", "cpu", "cuda")
+
+
+class RunSetup(QWidget):
+    """The form of a new run. `start_wanted` when its button is pressed."""
+
+    start_wanted = Signal()
+
+    def __init__(self, state: AppState, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._state = state
+        self._measured_for: tuple[Path, str] | None = None
+        self.preset = QComboBox()
+        for name, text in (("draft", tr("Draft")), ("standard", tr("Standard")), ("full", tr("Full (as the paper)"))):
+            self.preset.addItem(text, name)
+        self.budget = number(0, 86400, " s", 0, 10)
+        self.budget.setSpecialValueText(tr("no limit"))
+        self.budget.setToolTip(tr("The run ends after this time with what it has."))
+        self.device = QComboBox()
+        for name, text in zip(_DEVICES, (tr("Automatic"), tr("Processor"), tr("Graphics card (CUDA)")), strict=True):
+            self.device.addItem(text, name)
+        self.effects = EffectsTable()
+        self.effects.setMinimumHeight(150)
+        self.effects.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.said = dim()
+        self.start_button = QPushButton(tr("Start"))
+        self.start_button.setDefault(True)
+        form = QFormLayout()
+        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+        form.addRow(tr("Preset"), self.preset)
+        form.addRow(tr("Budget"), self.budget)
+        form.addRow(tr("Device"), self.device)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addLayout(form)
+        layout.addWidget(self.effects, 1)
+        layout.addWidget(self.said)
+        layout.addWidget(self.start_button)
+        self._connect()
+        self._take_preset()
+
+    def _connect(self) -> None:
+        self.preset.activated.connect(self._take_preset)
+        self.budget.valueChanged.connect(self._tell)
+        self.effects.measured.connect(self._tell)
+        self.effects.changed.connect(self._tell)
+        self.effects.failed.connect(self._measuring_failed)
+        self.start_button.clicked.connect(self.start_wanted)
+        self._state.subscribe(self.refresh, "clip", "clip_path")
+
+    def refresh(self) -> None:
+        """Another clip or preset: measures its effects once the panel is on show."""
+        path = self._state.clip_path
+        self.start_button.setEnabled(path is not None)
+        if path is None:
+            self.said.setText(tr("Open a clip to start a run."))
+            return
+        wanted = (path, str(self.preset.currentData()))
+        if self.isVisible() and wanted != self._measured_for:
+            self._measured_for = wanted
+            self.effects.clear()
+            self.effects.rows = []
+            self._say(tr("Measuring what the clip calls for …"), "dim")
+            self.effects.measure(*wanted)
+
+    def showEvent(self, event: object) -> None:
+        """Nothing is measured while the panel is hidden."""
+        QTimer.singleShot(0, self.refresh)
+
+    def config(self) -> RunConfig:
+        """The preset with the budget and device of the form."""
+        return replace(PRESETS[str(self.preset.currentData())], **self._changes())
+
+    def request(self) -> RunRequest | None:
+        """What to ask the worker for; None without a clip."""
+        if self._state.clip_path is None:
+            return None
+        return RunRequest(
+            clip=str(self._state.clip_path),
+            preset=str(self.preset.currentData()),
+            changes=self._changes(),
+            effects=self.effects.overrides(),
+        )
+
+    def _changes(self) -> dict[str, float | str]:
+        budget = self.budget.value()
+        return {"budget_seconds": budget if budget >= 1 else 1e9, "device": str(self.device.currentData())}
+
+    def _take_preset(self) -> None:
+        budget = PRESETS[str(self.preset.currentData())].budget_seconds
+        self.budget.setValue(budget if budget < 86400 else 0)
+        self.refresh()
+
+    def _tell(self) -> None:
+        clip = self._state.clip
+        if clip is None or not self.effects.rows:
+            return
+        told = self._forecast(clip)
+        text = tr("About {low} to {high}, about {mb:.1f} GB of memory.").format(
+            low=forecast.spoken(told.seconds / 1.6),
+            high=forecast.spoken(min(told.seconds * 1.6, self.config().budget_seconds)),
+            mb=told.megabytes / 1000,
+        )
+        if told.too_large:
+            text += " " + tr("That is more than this machine has free: choose a smaller preset.")
+        guesses = "\n".join(self.effects.guesses)
+        self._say(f"{text}\n{guesses}" if guesses else text, "bad" if told.too_large else "dim")
+
+    def _forecast(self, clip: Clip) -> forecast.Forecast:
+        config = self.config()
+        share = next((row["evidence"] / 100 for row in self.effects.rows if row["name"] == "background"), 0.0)
+        sizes = run_sizes(clip.source_size, len(clip), clip.objects, share, config)
+        return forecast.forecast(self.effects.chosen(), sizes, config)
+
+    def _measuring_failed(self, sentence: str) -> None:
+        self._measured_for = None
+        self._say(sentence, "bad")
+
+    def _say(self, text: str, role: str) -> None:
+        self.said.setText(text)
+        set_role(self.said, role)
