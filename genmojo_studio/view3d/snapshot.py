@@ -110,6 +110,13 @@ class SceneSnapshot:
         return np.isin(self.object_id, np.array(ids, np.uint16))
 
     @cached_property
+    def is_sound(self) -> np.ndarray:
+        """(N,) bool: all values are finite and the quaternion has a length; the others are not drawn."""
+        columns = (self.positions, self.rotations, self.scales, self.opacities[:, None], self.colours)
+        finite = np.isfinite(np.concatenate(columns, axis=1)).all(axis=1)
+        return finite & (np.abs(self.rotations).max(axis=1, initial=0) > 1e-12)
+
+    @cached_property
     def orbit_target(self) -> np.ndarray:
         """(3,) float64 what views turn about: `target`, else the median of the objects (of everything if none)."""
         if self.target is not None:
