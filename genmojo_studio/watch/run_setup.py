@@ -18,6 +18,7 @@ from genmojo_studio.watch.controls import dim, number, set_role
 from genmojo_studio.watch.effects_table import EffectsTable
 from genmojo_studio.worker.protocol import RunRequest
 
+_NO_LIMIT = 1e9  # seconds: JSON knows no infinity
 _DEVICES = ("auto", "cpu", "cuda")
 
 
@@ -89,7 +90,7 @@ class RunSetup(QWidget):
 
     def config(self) -> RunConfig:
         """The preset with the budget and device of the form."""
-        return replace(PRESETS[str(self.preset.currentData())], **self._changes())
+        return replace(PRESETS[str(self.preset.currentData())], budget_seconds=self._budget())
 
     def request(self) -> RunRequest | None:
         """What to ask the worker for; None without a clip."""
@@ -98,13 +99,12 @@ class RunSetup(QWidget):
         return RunRequest(
             clip=str(self._state.clip_path),
             preset=str(self.preset.currentData()),
-            changes=self._changes(),
+            changes={"budget_seconds": self._budget(), "device": str(self.device.currentData())},
             effects=self.effects.overrides(),
         )
 
-    def _changes(self) -> dict[str, float | str]:
-        budget = self.budget.value()
-        return {"budget_seconds": budget if budget >= 1 else 1e9, "device": str(self.device.currentData())}
+    def _budget(self) -> float:
+        return self.budget.value() if self.budget.value() >= 1 else _NO_LIMIT
 
     def _take_preset(self) -> None:
         budget = PRESETS[str(self.preset.currentData())].budget_seconds

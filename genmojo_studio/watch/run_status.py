@@ -133,9 +133,9 @@ class RunStatus(QWidget):
     def _show_stages(self) -> None:
         log = self._control.log
         while len(self._stage_rows) > len(log.stages):
-            for widget in self._stage_rows.pop():
-                self.stages.removeWidget(widget)
-                widget.deleteLater()
+            for part in self._stage_rows.pop():
+                self.stages.removeWidget(part)
+                part.deleteLater()
         for i, stage in enumerate(log.stages):
             if i == len(self._stage_rows):
                 made = (QLabel(stage.name), QProgressBar(), QLabel())
