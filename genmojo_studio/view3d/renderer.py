@@ -15,9 +15,9 @@ import numpy as np
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.errors import GenmojoError
-from genmojo_core.render.rasterizer import FRUSTUM_CLAMP
 from genmojo_studio.view3d import shaders
 from genmojo_studio.view3d.colouring import palette_rgb, value_bounds
+from genmojo_studio.view3d.gl_pieces import bind, jacobian_limits, matrix, release_target, set_uniform, straight
 from genmojo_studio.view3d.look import Look, Mode, ObjectTable, object_table
 from genmojo_studio.view3d.order import EXACT_UP_TO, Sorter, back_to_front
 from genmojo_studio.view3d.scene_textures import TEXELS, SceneTextures, nearest, rows_of
@@ -72,8 +72,8 @@ class SplatRenderer:
 
     def __init__(self, ctx: Any, wake: Callable[[], None] | None = None, exact_up_to: int = EXACT_UP_TO) -> None:
         if ctx.version_code < 330:
-            raise GenmojoError("missing_package", f"this driver offers OpenGL {ctx.version_code / 100:.1f}, 3.3 is needed",
-                               "3D view", "the view is drawn by the processor instead")  # fmt: skip
+            offered = f"this driver offers OpenGL {ctx.version_code / 100:.1f}, 3.3 is needed"
+            raise GenmojoError("missing_package", offered, "3D view", "the processor draws instead")
         self.ctx = ctx
         self.name = str(ctx.info["GL_RENDERER"])
         self.is_software = any(part in self.name.lower() for part in SOFTWARE)
@@ -173,7 +173,7 @@ class SplatRenderer:
         target = self._target("image", (view.width, view.height), dtype="f1")
         self._resolve_into(target, look, look.value_range or self.measure(look))
         data = np.frombuffer(target.read(components=4), np.uint8).reshape(view.height, view.width, 4)[::-1]
-        return data.copy() if look.backdrop is not None else _straight(data)
+        return data.copy() if look.backdrop is not None else straight(data)
 
     def draw_exactly(self, view: View, look: Look, t: float | None = None) -> None:
         """Draw with this camera's own order, however large the scene: for screenshots, videos and measurements."""
@@ -194,7 +194,7 @@ class SplatRenderer:
         self._sorter.stop()
         self._drop_scene()
         for target in self._targets.values():
-            _release_target(target)
+            release_target(target)
         self._targets = {}
         for program, array in self._arrays.items():
             array.release()
@@ -221,19 +221,19 @@ class SplatRenderer:
             after = min(t + 1, scene.snapshot.T - 1) if scene.snapshot.frames is not None else t
             scene.write_next(after, scene.positions(after))
         p = self._project
-        _set(p, "camera", _matrix(view.world_to_camera))
-        _set(p, "next_camera", _matrix(self._next_camera(scene, view, t)))
-        _set(p, "lens", (view.fx, view.fy, view.cx, view.cy))
-        _set(p, "limits", jacobian_limits(view))
-        _set(p, "range", (view.near, view.far, view.dilation))
-        _set(p, "splat_scale", look.splat_scale)
-        _set(p, "thinning", float(quality.stride) ** 0.5)
-        _set(p, "size", (float(view.width), float(view.height)))
-        _set(p, "layers", layers)
-        _set(p, "between", t - first)
-        _set(p, "count", len(order))
-        _set(self._splat, "size", (float(view.width), float(view.height)))
-        _set(self._splat, "dot_size", DOT_PIXELS * max(1.0, view.height / 720))
+        set_uniform(p, "camera", matrix(view.world_to_camera))
+        set_uniform(p, "next_camera", matrix(self._next_camera(scene, view, t)))
+        set_uniform(p, "lens", (view.fx, view.fy, view.cx, view.cy))
+        set_uniform(p, "limits", jacobian_limits(view))
+        set_uniform(p, "range", (view.near, view.far, view.dilation))
+        set_uniform(p, "splat_scale", look.splat_scale)
+        set_uniform(p, "thinning", float(quality.stride) ** 0.5)
+        set_uniform(p, "size", (float(view.width), float(view.height)))
+        set_uniform(p, "layers", layers)
+        set_uniform(p, "between", t - first)
+        set_uniform(p, "count", len(order))
+        set_uniform(self._splat, "size", (float(view.width), float(view.height)))
+        set_uniform(self._splat, "dot_size", DOT_PIXELS * max(1.0, view.height / 720))
         return len(order)
 
     def _objects(self, scene: SceneTextures, look: Look) -> ObjectTable:
@@ -281,8 +281,8 @@ class SplatRenderer:
                  "next_places": scene.next_places}  # fmt: skip
         arrays = scene.layers or [self._empty_layers] * 4
         names |= dict(zip(("layer_places", "layer_turns", "layer_sizes", "layer_colours"), arrays, strict=True))
-        _bind(self._project, names)
-        _set(self._project, "mode", value)
+        bind(self._project, names)
+        set_uniform(self._project, "mode", value)
         self._work.use()
         self._work.viewport = (0, 0, TEXELS, rows_of(count))
         self.ctx.disable(moderngl.BLEND)
@@ -292,8 +292,8 @@ class SplatRenderer:
     def _splats(self, target: Any, count: int, style: int, bracket: Any = None) -> None:
         """SPLAT: blend `count` splats of the work buffer into a target."""
         place, shape, value = self._work.color_attachments
-        _bind(self._splat, {"place": place, "shape": shape, "value": value, "bracket": bracket or place})
-        _set(self._splat, "style", style)
+        bind(self._splat, {"place": place, "shape": shape, "value": value, "bracket": bracket or place})
+        set_uniform(self._splat, "style", style)
         target.use()
         if count:
             self._arrays[self._splat].render(moderngl.TRIANGLE_STRIP, vertices=4, instances=count)
@@ -341,9 +341,9 @@ class SplatRenderer:
 
     def _whole(self, program: Any, target: Any, textures: dict[str, Any], **uniforms: Any) -> None:
         """Run a program over every pixel of a target, without blending."""
-        _bind(program, textures)
+        bind(program, textures)
         for name, value in uniforms.items():
-            _set(program, name, value)
+            set_uniform(program, name, value)
         target.use()
         self.ctx.disable(moderngl.BLEND)
         self._arrays[program].render(moderngl.TRIANGLES, vertices=3)
@@ -366,7 +366,7 @@ class SplatRenderer:
         found = self._targets.get(name)
         if found is None or found.size != size:
             if found is not None:
-                _release_target(self._targets.pop(name))
+                release_target(self._targets.pop(name))
             if max(size) > self.ctx.info["GL_MAX_TEXTURE_SIZE"]:
                 raise GenmojoError("budget", f"a picture of {size[0]} x {size[1]} pixels is more than this driver "
                                    "draws", "3D view", "choose a smaller size")  # fmt: skip
@@ -378,44 +378,5 @@ class SplatRenderer:
         """Free the snapshot's textures."""
         if self._scene is not None:
             self._scene.release()
-            _release_target(self._work)
+            release_target(self._work)
             self._scene = None
-
-
-def jacobian_limits(view: View) -> tuple[float, float, float, float]:
-    """Lowest and highest u, lowest and highest v at which the projection's Jacobian is taken (render/rasterizer.py)."""
-    x, y = ((FRUSTUM_CLAMP - 1) / 2 * s for s in (view.width, view.height))
-    return (-(view.cx + x) / view.fx, (view.width - view.cx + x) / view.fx,
-            -(view.cy + y) / view.fy, (view.height - view.cy + y) / view.fy)  # fmt: skip
-
-
-def _matrix(world_to_camera: np.ndarray) -> tuple[float, ...]:
-    """Sixteen numbers, column by column as GLSL wants them."""
-    return tuple(float(v) for v in np.asarray(world_to_camera).T.ravel())
-
-
-def _set(program: Any, name: str, value: Any) -> None:
-    """Set a uniform unless the driver has optimised it away."""
-    if name in program:
-        program[name].value = value
-
-
-def _bind(program: Any, textures: dict[str, Any]) -> None:
-    """Give textures to a program's samplers."""
-    for unit, (name, texture) in enumerate(textures.items()):
-        texture.use(unit)
-        _set(program, name, unit)
-
-
-def _release_target(target: Any) -> None:
-    """Free a framebuffer and its textures."""
-    for texture in target.color_attachments:
-        texture.release()
-    target.release()
-
-
-def _straight(premultiplied: np.ndarray) -> np.ndarray:  # (H, W, 4) uint8
-    """Colours divided by coverage, as PNG wants them."""
-    alpha = premultiplied[..., 3:].astype(np.float32)
-    rgb = premultiplied[..., :3] * (255.0 / np.maximum(alpha, 1.0))
-    return np.concatenate([np.minimum(rgb + 0.5, 255).astype(np.uint8), premultiplied[..., 3:]], axis=-1)

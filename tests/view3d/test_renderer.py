@@ -209,7 +209,7 @@ def test_large_scenes_are_sorted_aside_and_exactly_for_pictures() -> None:
 
 
 def test_lower_detail_looks_alike(renderer: SplatRenderer) -> None:
-    """While moving: half the pixels each way and a quarter of the splats still show the same picture, softer: holes stay closed."""
+    """While moving: half the pixels each way and a quarter of the splats show the same picture without holes."""
     snapshot, view = random_snapshot(8000, 8, size=0.03), a_view(160, 120)
     renderer.upload(snapshot)
     full = renderer.picture(view, Look()).sums
