@@ -27,6 +27,7 @@ class LossWeights:
     delta_scale: float = 0.1  # |change of log scale|
     delta_color: float = 0.5  # |change of colour|: motion must not be explained by colour
     smooth: float = 0.2  # second difference of motion in time
+    unseen: float = 2.0  # mean squared gap to what the prior expects of unseen views
 
 
 @dataclass(frozen=True)
@@ -70,7 +71,10 @@ class RunConfig:
     checkpoint_seconds: float = 30.0
     seed: int = 0
     device: str = "auto"
-    prior: str = "none"
+    prior: str = "none"  # embedded, none, zero123:DIR or zeronvs:DIR
+    prior_mode: str = "pseudo"  # how it is followed: sds, x0 or pseudo (priors/sds.py)
+    prior_views: int = 4  # views per object and step
+    prior_objects: int = 1  # objects per step that are shown to the prior; 0 = all
     method: str = "genmojo"
     ignore: tuple[str, ...] = ()
 
@@ -129,8 +133,12 @@ _RANGES: dict[str, tuple[float, float]] = {
     "densify_every": (1, 1_000_000),
     "held_out_share": (0.0, 0.5),
     "checkpoint_seconds": (0.1, math.inf),
+    "prior_views": (1, 64),
+    "prior_objects": (0, 255),
     "seed": (0, 2**31 - 1),
 }
+PRIORS = ("none", "embedded", "zero123:DIR", "zeronvs:DIR")
+PRIOR_MODES = ("sds", "x0", "pseudo")
 
 
 def _faults(config: RunConfig) -> list[str]:
@@ -145,8 +153,11 @@ def _faults(config: RunConfig) -> list[str]:
             value = getattr(group, f.name)
             if not math.isfinite(value) or value < 0:
                 faults.append(f"{type(group).__name__}.{f.name} is {value}, allowed is 0 or more")
-    if config.prior != "none":
-        faults.append(f"there is no prior '{config.prior}' in this version, only none")
+    kind, colon, folder = config.prior.partition(":")
+    if kind not in [name.partition(":")[0] for name in PRIORS] or bool(folder) != (kind in ("zero123", "zeronvs")):
+        faults.append(f"there is no prior '{config.prior}', only {', '.join(PRIORS)}")
+    if config.prior_mode not in PRIOR_MODES:
+        faults.append(f"there is no prior mode '{config.prior_mode}', only {', '.join(PRIOR_MODES)}")
     if config.method != "genmojo":
         faults.append(f"there is no method '{config.method}' in this version, only genmojo")
     known = ("depth", "cameras", "flow", "background", "tracks")

@@ -34,8 +34,11 @@ class Provenance:
 
 
 @torch.no_grad()
-def bake(scene: Scene4D, clip: Clip, provenance: Provenance) -> BakedScene:
-    """The scene with its motion written out; cameras are scaled to the clip's source pixels."""
+def bake(scene: Scene4D, clip: Clip, provenance: Provenance, judged: np.ndarray | None = None) -> BakedScene:
+    """The scene with its motion written out; cameras are scaled to the clip's source pixels.
+
+    judged: (M, 3) rows elevation, azimuth (degrees), frame of views that a prior supervised besides the frames.
+    """
     frames = len(clip)
     parts = [_object_rows(model, frames) for model in scene.objects]
     objects, first = [], 0
@@ -60,11 +63,17 @@ def bake(scene: Scene4D, clip: Clip, provenance: Provenance) -> BakedScene:
         np.stack([k for _, k in placements], axis=1).astype(np.float32), cameras,
         np.array([m.ref_frame for m in scene.objects] + [0] * (len(objects) - len(scene.objects))),
         np.asarray(clip.world_up, float), d_dc if keep_color else None,
-        supervised=np.stack([np.zeros(frames), np.zeros(frames), np.arange(frames)], 1).astype(np.float32),
+        supervised=_supervised(frames, judged),
         config=provenance.config, effects=provenance.effects, curve=provenance.curve, metrics=provenance.metrics,
         fps=_fps(clip.seconds), pixel_aspect=clip.pixel_aspect, run_uuid=provenance.run_uuid,
         created_utc=datetime.now(UTC).isoformat(timespec="seconds"), generator=f"genmojo {__version__}",
     )  # fmt: skip
+
+
+def _supervised(frames: int, judged: np.ndarray | None) -> np.ndarray:
+    """The frames' own views, then those of a prior."""
+    own = np.stack([np.zeros(frames), np.zeros(frames), np.arange(frames)], 1)
+    return (own if judged is None else np.concatenate([own, judged])).astype(np.float32)
 
 
 _TIMED = ("d_xyz", "rot_t", "log_scale_t", "d_dc")

@@ -11,7 +11,7 @@ Reading order of the method: motion.py (initial motion), lift.py (first scene), 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import torch
@@ -20,11 +20,21 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.config import RunConfig
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.errors import GenmojoError
-from genmojo_core.events import Checkpointed, Event, Failed, Finished, ParameterChanged, Preview, StageStarted, Warned
+from genmojo_core.events import (
+    Checkpointed,
+    EffectChanged,
+    Event,
+    Failed,
+    Finished,
+    ParameterChanged,
+    Preview,
+    StageStarted,
+    Warned,
+)
 from genmojo_core.optimise import checkpoint, density, parameters
 from genmojo_core.optimise.bake import Provenance, bake
 from genmojo_core.optimise.deadline import Deadline
-from genmojo_core.optimise.first_poses import first_poses, usable_motion
+from genmojo_core.optimise.first_poses import Moves, first_poses, usable_motion
 from genmojo_core.optimise.guard import Guard
 from genmojo_core.optimise.lift import Lifted, lift, track_supervision
 from genmojo_core.optimise.live import LiveFrame, live_frame
@@ -42,6 +52,8 @@ from genmojo_core.optimise.schedule import (
     start_rate,
 )
 from genmojo_core.optimise.targets import Targets
+from genmojo_core.optimise.unseen import Moment, UnseenViews
+from genmojo_core.priors.choose import choose as choose_prior
 from genmojo_core.render.backend import choose
 from genmojo_core.store.scene_file import BakedScene
 
@@ -75,6 +87,7 @@ class Run:
         self.clock = Clock()
         self.progress = Progress(config, stages(config, len(clip)), len(clip))
         self.stopped = False
+        self.unseen: UnseenViews | None = None
         self.step_limit: int | None = None
         self.changes: list[ParameterChanged] = []
 
@@ -90,7 +103,8 @@ class Run:
         if self.changes:
             config["changes"] = [change.to_json() for change in self.changes]
         metrics = {"steps": float(self.progress.step), "seconds": self.clock.now()[0]}
-        return bake(self.scene, self.clip, Provenance(config, self.plan.to_json(), self.progress.curve, metrics))
+        provenance = Provenance(config, self.plan.to_json(), self.progress.curve, metrics)
+        return bake(self.scene, self.clip, provenance, None if self.unseen is None else self.unseen.supervised())
 
     def live(self, t: int) -> LiveFrame:
         """The Gaussians of frame t as they stand. Raises GenmojoError("empty") before the first Preview."""
@@ -149,6 +163,7 @@ class Run:
         for message in lifted.warnings:
             yield Warned(*self.clock.now(), "object_not_visible", message)
         self._build(lifted, track_supervision(lifted, motions))
+        yield from self._ask_prior(lifted, motions)
         self._start()
         yield Preview(*self.clock.now(), "motion", self.progress.step, self.reference, self._reference_psnr())
         try:
@@ -176,6 +191,16 @@ class Run:
         self.objective = Objective(self.scene, self.targets, self.plan, self.config.weights,
                                    choose(self.config.device), tracks, self.config.neighbours)  # fmt: skip
         self.generator = torch.Generator().manual_seed(self.config.seed)
+
+    def _ask_prior(self, lifted: Lifted, motions: Sequence[Moves]) -> Iterator[Event]:
+        """Gaussians for sides that no frame shows, if the plan has them drawn; says for what the prior is off."""
+        prior = choose_prior(self.config.prior) if self.plan.on("unseen_views") else None
+        if prior is None:
+            return
+        self.unseen = UnseenViews(prior, self.clip, self.config, lifted, motions, self.objective.splat)
+        self.objective.refresh_neighbours()
+        for message in self.unseen.notes():
+            yield Warned(*self.clock.now(), "prior_off", message)
 
     def _start(self) -> None:
         """Optimiser and guard, and the checkpoint if there is one to resume."""
@@ -210,6 +235,10 @@ class Run:
             outcome = self._step(stage, i)
             self.progress.advance(outcome, self.clock, len(self.scene))
             yield self.progress.event(self.clock, len(self.scene))
+            reason = self.unseen.objection(self.progress.psnr()) if self.unseen is not None else ""
+            if reason:
+                self.unseen = None
+                yield EffectChanged(*self.clock.now(), "unseen_views", False, reason)
             if (i + 1) % self.config.densify_every == 0 and i + 1 < 0.8 * stage.steps:
                 self._control_density()
             if self.progress.step % SNAPSHOT_EVERY == 0:
@@ -232,6 +261,9 @@ class Run:
         set_rates(self.optimiser, self.progress.fraction(self.clock))
         self.optimiser.zero_grad(set_to_none=True)
         outcome = self.objective.evaluate(frames, stage.deform, self.generator)
+        if self.unseen is not None:
+            moment = Moment(self.progress.step / self.progress.total, stage.deform, self.progress.step)
+            self.unseen.add_to(outcome, moment, self.config.weights.unseen, self.generator)
         outcome.loss.backward()
         verdict = self.guard.judge(outcome.loss)
         if verdict == "rollback":

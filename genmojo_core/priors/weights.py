@@ -46,7 +46,9 @@ def read(path: Path) -> EmbeddedPrior:
     do not fit the architecture it names.
     """
     if not path.is_file():
-        raise GenmojoError("io", "does not exist", str(path), "train one with `genmojo train-prior` or use --prior none")
+        raise GenmojoError(
+            "io", "does not exist", str(path), "train one with `genmojo train-prior` or use --prior none"
+        )
     if path.stat().st_size > MAX_BYTES:
         raise GenmojoError("size", f"is larger than {MAX_BYTES >> 20} MiB", str(path))
     header = read_metadata(path)
