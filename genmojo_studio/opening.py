@@ -16,7 +16,8 @@ PICTURES = (".jpg", ".jpeg", ".png", ".bmp", ".webp", ".tif", ".tiff")
 def kind_of(path: str | Path) -> Kind:
     """Which kind of thing lies there, by its name.
 
-    A folder in which a worker was asked for something is a run, any other folder a clip.
+    A folder in which a worker was asked for something is a run, one with PLY files a moving splat, any
+    other folder a clip.
 
     Raises:
         GenmojoError("io"): nothing is there. ("format"): a file that the app does not open.
@@ -25,7 +26,7 @@ def kind_of(path: str | Path) -> Kind:
     if not path.exists():
         raise GenmojoError("io", "does not exist", str(path), "check the name")
     if path.is_dir():
-        return "run" if is_run(path) else "clip"
+        return "run" if is_run(path) else "ply" if any(path.glob("*.ply")) else "clip"
     suffix = path.suffix.lower()
     by_suffix: dict[str, Kind] = {".h5": "scene", ".hdf5": "scene", ".genmojo": "project", ".ply": "ply"}
     if suffix in by_suffix:

@@ -64,6 +64,8 @@ class RunLog:
             self.marks.append(Mark(at, "stage", str(event["stage"])))
         elif kind == "EffectChanged":
             self.marks.append(Mark(at, "effect", f"{event['effect']} {'+' if event['on'] else '−'}: {event['reason']}"))
+        elif kind == "ParameterChanged":
+            self.marks.append(Mark(at, "parameter", f"{event['name']} = {event['value']:g}"))
         elif kind == "Checkpointed":
             self.marks.append(Mark(at, "checkpoint", str(event["step"])))
         elif kind == "Warned":
