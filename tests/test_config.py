@@ -24,8 +24,8 @@ def test_every_preset_is_valid_and_json(name: str) -> None:
 
 def test_all_faults_are_told_together() -> None:
     with pytest.raises(GenmojoError) as caught:
-        preset("draft", short_side=-3, motion_bases=0, ignore=("sound",), prior="embedded")
-    for part in ("short_side is -3", "motion_bases is 0", "cannot ignore 'sound'", "no prior 'embedded'"):
+        preset("draft", short_side=-3, motion_bases=0, ignore=("sound",), prior="sketch")
+    for part in ("short_side is -3", "motion_bases is 0", "cannot ignore 'sound'", "no prior 'sketch'"):
         assert part in caught.value.sentence()
     assert "\n" not in caught.value.sentence()
 

@@ -1,4 +1,4 @@
-"""First Gaussians for sides that no frame shows: the surface of the volume a prior predicts, cut by what frames deny."""
+"""First Gaussians for unseen sides: the surface of the volume a prior predicts, cut by what frames deny."""
 
 from __future__ import annotations
 

@@ -7,6 +7,7 @@ import torch
 from torch import Tensor
 
 from genmojo_core.priors.batches import Batch
+from genmojo_core.priors.denoiser import LOG_SIGMA, SPREAD, Denoiser
 from genmojo_core.priors.volume import GREY, Rays, VolumeNet, render
 
 RAYS = 200  # per view and step
@@ -54,6 +55,47 @@ class VolumeTask:
             drawn = render(self.net(part.condition, part.facts), part.rays(side))
             pictures.append(drawn.transpose(2, 3).unflatten(3, (side, side)))
         return torch.cat(pictures)
+
+
+class DenoiserTask:
+    """Weighted squared error of clean pictures around the mean pictures of a trained volume network."""
+
+    name = "denoiser"
+
+    def __init__(self, net: Denoiser, volume: VolumeNet) -> None:
+        self.net = net
+        self.means = VolumeTask(volume.eval().requires_grad_(False))
+
+    def loss(self, batch: Batch, generator: torch.Generator) -> Tensor:
+        """EDM's weighted loss at random noise: 1 for a network that knows the mean picture only."""
+        mean, clean = self._pictures(batch)
+        device = clean.device
+        log_sigma = torch.randn(len(clean), generator=generator, device=device) * 1.2 - 1.8
+        high = torch.rand(len(clean), generator=generator, device=device) < 0.1
+        log_sigma = torch.where(high, LOG_SIGMA[1], log_sigma).clamp(*LOG_SIGMA)
+        return self._weighted(mean, clean, torch.exp(log_sigma), generator)
+
+    def measure(self, batch: Batch) -> dict[str, float]:
+        """The weighted loss at three noise levels; 1 is the mean picture with the best linear filter."""
+        mean, clean = self._pictures(batch)
+        figures = {}
+        for sigma in (0.05, 0.2, 1.0):
+            generator = torch.Generator(clean.device).manual_seed(0)
+            level = torch.full((len(clean),), sigma, device=clean.device)
+            figures[f"at_{sigma}"] = float(self._weighted(mean, clean, level, generator))
+        return figures
+
+    def _pictures(self, batch: Batch) -> tuple[Tensor, Tensor]:
+        """Mean with depth (B K, 5, S, S) and clean pictures (B K, 4, S, S)."""
+        with torch.no_grad():
+            return self.means.mean_and_depth(batch).flatten(0, 1), batch.targets.flatten(0, 1)
+
+    def _weighted(self, mean: Tensor, clean: Tensor, sigma: Tensor, generator: torch.Generator) -> Tensor:
+        noise = torch.randn(clean.shape, generator=generator, device=clean.device)
+        s = sigma[:, None, None, None]
+        got = self.net(clean + s * noise, mean, sigma)
+        weight = (s * s + SPREAD**2) / (s * SPREAD) ** 2
+        return (weight * (got - clean) ** 2).mean()
 
 
 def scores(predicted: Tensor, wanted: Tensor) -> dict[str, float]:
