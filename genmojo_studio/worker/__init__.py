@@ -1,0 +1,1 @@
+"""The optimisation as a program of its own: how the window starts it, talks to it, sees it and outlives it."""

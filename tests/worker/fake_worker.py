@@ -1,0 +1,136 @@
+"""A worker whose optimiser only walks at random: the whole machinery without torch, and faults on request.
+
+The request's `models` say what it does: step_seconds, steps, gaussians, frames; fault (exception, memory, segfault,
+exit, hang, spin, compile) at which step.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import json
+import os
+import signal
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from genmojo_core import events
+from genmojo_core.clip.cameras import Cameras
+from genmojo_core.errors import GenmojoError
+from genmojo_core.optimise import parameters
+from genmojo_core.store.atomic import write_bytes
+from genmojo_studio.view3d.snapshot import SnapshotObject
+from genmojo_studio.worker import host as worker
+from genmojo_studio.worker.preview_codec import Cloud, Setting
+
+
+class FakeClock:
+    held = False
+
+    def hold(self) -> None:
+        self.held = True
+
+    def go_on(self) -> None:
+        self.held = False
+
+
+class FakeRun:
+    """Random walk; step t moves every Gaussian; deterministic by step."""
+
+    def __init__(self, host: worker.Host) -> None:
+        self.host = host
+        options = host.request.models
+        self.step_seconds = float(options.get("step_seconds", 0.01))
+        self.steps = int(options.get("steps", 60))
+        self.count = int(options.get("gaussians", 300))
+        self.frames = int(options.get("frames", 4))
+        self.fault, self.at = options.get("fault", ""), int(options.get("at", 5))
+        self.clock, self.reference = FakeClock(), self.frames // 2
+        self.stopped, self.done = False, 0
+        self.checkpoint_path = host.folder / "checkpoint.json"
+        if host.request.resume:
+            self.done = json.loads(self.checkpoint_path.read_text())["step"]
+
+    @property
+    def steps_done(self) -> int:
+        return self.done
+
+    def setting(self) -> Setting:
+        lens = np.array([[100.0, 0, 64], [0, 100.0, 48], [0, 0, 1]])
+        cameras = Cameras(np.tile(lens, (self.frames, 1, 1)), np.tile(np.eye(4), (self.frames, 1, 1)), (128, 96))
+        objects = (SnapshotObject(1, "one", (1.0, 0, 0)), SnapshotObject(0, "background", (0.5, 0.5, 0.5), True))
+        return Setting(self.frames, objects, cameras, np.array([0.0, -1, 0]), np.array([0.0, 0, 4]))
+
+    def live(self, t: int) -> Cloud:
+        n = self.count
+        means = np.random.default_rng(0).normal(size=(n, 3)) + [0, 0, 4]
+        means[: n // 2, 0] += 0.1 * t
+        means[:, 1] += 0.001 * self.done
+        owner = np.where(np.arange(n) < n // 2, 1, 0).astype(np.uint16)
+        return Cloud(means, np.tile([1.0, 0, 0, 0], (n, 1)), np.full((n, 3), 0.05), np.full(n, 0.8),
+                     np.full((n, 3), 0.5), owner, np.arange(n, dtype=np.uint64))  # fmt: skip
+
+    def stop(self) -> None:
+        self.stopped = True
+
+    def change(self, name: str, value: float) -> events.ParameterChanged:
+        return events.ParameterChanged(0.0, 0.0, self.done, name, 0.0, parameters.checked(name, value))
+
+    def checkpoint(self) -> events.Checkpointed | None:
+        write_bytes(self.checkpoint_path, json.dumps({"step": self.done}).encode())
+        return events.Checkpointed(0.0, 0.0, self.done, str(self.checkpoint_path))
+
+    def __iter__(self) -> Iterator[events.Event]:
+        yield events.Preview(0.0, 0.0, "first scene", 0, self.reference, 20.0)
+        half = self.steps // 2
+        for stage, first, end in (("lift", 0, half), ("joint", half, self.steps)):
+            yield events.StageStarted(0.0, 0.0, stage, end - first)
+            while first <= self.done < end and not self.stopped:
+                self._spoil()
+                time.sleep(self.step_seconds)
+                self.done += 1
+                yield events.Step(0.0, 0.0, stage, self.done - first, end - first, 1.0 / self.done, {"rgb": 1.0},
+                                  self.count, 20.0, self.done / self.steps, 0.0)  # fmt: skip
+                if self.done % 10 == 0:
+                    yield self.checkpoint()
+        yield events.Finished(0.0, 0.0, self.done, "interrupted" if self.stopped else "done")
+
+    def _spoil(self) -> None:
+        if self.done != self.at or self.host.request.resume:
+            return
+        if self.fault == "exception":
+            raise ZeroDivisionError("as asked for")
+        if self.fault == "input":
+            raise GenmojoError("value", "the clip is odd", "clip", "take another")
+        if self.fault == "memory":
+            raise MemoryError
+        if self.fault == "segfault":
+            ctypes.string_at(0)
+        if self.fault == "exit":
+            os._exit(3)
+        if self.fault == "hang":
+            os.kill(os.getpid(), signal.SIGSTOP)
+        if self.fault == "compile":
+            self.host.announce("compiling", "compiling", 60.0)
+            time.sleep(0.3)  # for the message to leave
+            ctypes.PyDLL(None).sleep(7)  # holds the interpreter, as a compiler does
+            self.host.announce("loaded", "", 0.0)
+
+
+class FakeJob:
+    def run(self, host: worker.Host) -> None:
+        host.session.enter("ready")
+        run = FakeRun(host)
+        worker.drive(host, run)
+        if host.session.keep:
+            host.session.enter("finishing")
+            write_bytes(host.folder / "scene.h5", b"scene")
+            host.tell({"type": "event", "event": {"event": "SceneWritten", "path": str(host.folder / "scene.h5")}})
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+    sys.exit(worker.main(job=FakeJob()))
