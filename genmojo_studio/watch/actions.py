@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from genmojo_studio.actions import Action
 
-_VIEWS = (
-    ("reference", "Input camera", "0", 0, 0),
-    ("right", "30° to the right", "6", 0, 30),
-    ("left", "30° to the left", "4", 0, -30),
-    ("above", "30° from above", "8", 30, 0),
-    ("below", "30° from below", "2", -30, 0),
-    ("side", "90° to the right", "3", 0, 90),
-    ("other_side", "90° to the left", "1", 0, -90),
-    ("back", "From behind", "7", 0, 180),
-    ("top", "From the top", "9", 90, 0),
+# Names are those of `view3d.orbit.PRESETS`.
+VIEWS = (
+    ("input", "Input camera", "0"),
+    ("right_30", "30° to the right", "6"),
+    ("left_30", "30° to the left", "4"),
+    ("above_30", "30° from above", "8"),
+    ("below_30", "30° from below", "2"),
+    ("right_90", "90° to the right", "3"),
+    ("left_90", "90° to the left", "1"),
+    ("back", "From behind", "7"),
+    ("top", "From the top", "9"),
 )
-VIEW_ANGLES = {f"view.{name}": (float(elevation), float(azimuth)) for name, _, _, elevation, azimuth in _VIEWS}
 
 _MODES = (
     ("rgb", "Colour"),
@@ -43,7 +43,7 @@ def _watch(action_id: str, text: str, menu: str, *keys: str, **more: object) -> 
 ACTIONS = (
     _watch("edit.undo", "Undo", "Edit", "Ctrl+Z", help="Takes the last change of the view or the scene back."),
     _watch("edit.redo", "Redo", "Edit", "Ctrl+Shift+Z", "Ctrl+Y", help="Does it again."),
-    *(_watch(f"view.{name}", text, "View/Direction", key) for name, text, key, _, _ in _VIEWS),
+    *(_watch(f"view.{name}", text, "View/Direction", key) for name, text, key in VIEWS),
     *(_watch(f"mode.{name}", text, "View/Show", checkable=True) for name, text in _MODES),
     *(
         _watch(f"compare.{name}", text, "View/Compare with the input", f"Alt+{i + 1}", checkable=True)

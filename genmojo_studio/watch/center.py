@@ -116,8 +116,8 @@ class Center(QWidget):
         top.addStretch()
         top.addWidget(self.figures)
         self.splitter = QSplitter()
-        for widget in (self.input_picture, self.view, self.joined_picture):
-            self.splitter.addWidget(widget)
+        for pane in (self.input_picture, self.view, self.joined_picture):
+            self.splitter.addWidget(pane)
         self.splitter.setChildrenCollapsible(False)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)

@@ -6,13 +6,13 @@ The model of `genmojo_core.effects.costs` is within a factor of two, and so is t
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from genmojo_core.config import RunConfig
 from genmojo_core.effects.costs import FIELD_MS, PIXEL_MS, SPLAT_MS, Sizes
+from genmojo_studio.worker.machine import memory
 
 BASE_MB = 620.0  # a worker before it has a scene: Python, PyTorch, compiled kernels
 _VALUES_PER_PIXEL = 40  # bytes of a clip's channels and targets per pixel and frame
@@ -41,14 +41,9 @@ def forecast(effects: Iterable[Mapping[str, Any]], sizes: Sizes, config: RunConf
     seconds = _START_SECONDS + (config.joint_steps + 0.5 * config.lift_steps) * step_ms / 1000
     seconds = min(seconds, config.budget_seconds)
     pixels = sizes.pixels * sizes.frames * _VALUES_PER_PIXEL / 1e6
-    return Forecast(seconds, BASE_MB + pixels + sum(float(effect["mb"]) for effect in on), machine_megabytes())
-
-
-def machine_megabytes() -> float:
-    """Memory of this machine; infinite where the system does not say."""
-    if not hasattr(os, "sysconf") or "SC_PHYS_PAGES" not in os.sysconf_names:
-        return math.inf
-    return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") / 1e6
+    return Forecast(
+        seconds, BASE_MB + pixels + sum(float(effect["mb"]) for effect in on), memory()["total_mb"] or math.inf
+    )
 
 
 def spoken(seconds: float) -> str:

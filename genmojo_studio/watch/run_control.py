@@ -15,6 +15,7 @@ from genmojo_studio.watch.run_log import RunLog
 from genmojo_studio.worker.client import WorkerClient
 from genmojo_studio.worker.death import DeathReport
 from genmojo_studio.worker.protocol import RunRequest
+from genmojo_studio.worker.runs import SCENE
 
 LIVE = ("starting", "ready", "running", "paused", "stepping", "stopping", "finishing", "lost")
 
@@ -32,13 +33,13 @@ class RunControl(QObject):
     died = Signal(object)
     ended = Signal(object)
     failed = Signal(object)
+    quiet = Signal(bool)  # the worker measures what the view costs: do not draw
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.client = WorkerClient(self)
         self.log = RunLog()
         self.state = ""
-        self.request: RunRequest | None = None
         self.stop_below: float | None = None
         self.phase = ""
         self.view_cost = 0.0
@@ -49,6 +50,8 @@ class RunControl(QObject):
         self.client.died.connect(self._died)
         self.client.beat_received.connect(self._beat)
         self.client.phase_changed.connect(self._phase)
+        self.client.acknowledged.connect(self._acknowledged)
+        self.client.probe_changed.connect(self.quiet)
 
     @property
     def live(self) -> bool:
@@ -60,15 +63,42 @@ class RunControl(QObject):
         """The run's folder once there is one."""
         return Path(self.client.run_dir) if self.client.run_dir else None
 
+    @property
+    def scene_path(self) -> Path | None:
+        """Where the run's scene is or will be."""
+        request = self.client.request
+        if request is not None and request.output:
+            return Path(request.output)
+        return self.run_dir / SCENE if self.run_dir is not None else None
+
     def start(self, request: RunRequest) -> None:
         """Starts a worker; GenmojoErrors are told through `failed`."""
-        self._begin(request)
+        self._begin()
         self._ask(lambda: self.client.start(request))
 
     def attach(self, run_dir: Path) -> None:
         """Shows a run that lives."""
-        self._begin(None)
+        self._begin()
         self._ask(lambda: self.client.attach(str(run_dir)))
+
+    def resume(self, run_dir: Path) -> None:
+        """Goes on from a run folder's checkpoint."""
+        self._begin()
+        self._ask(lambda: self.client.resume_run(run_dir))
+
+    def detach(self) -> None:
+        """Lets the worker go on alone; its run can be attached to later."""
+        self.client.detach()
+        self.state = ""
+
+    def look(self, frame: int) -> None:
+        """Previews of this frame from now on."""
+        if self.live:
+            self.client.look(frame)
+
+    def set_parameter(self, name: str, value: float) -> None:
+        """Changes a number of the run from its next step on."""
+        self._ask(lambda: self.client.set_parameter(name, value))
 
     def pause_or_resume(self) -> None:
         """Pauses a running run, lets a paused one go on."""
@@ -90,9 +120,8 @@ class RunControl(QObject):
         """Ends the run; `keep` writes the scene as it stands."""
         self._ask(lambda: self.client.stop(keep))
 
-    def _begin(self, request: RunRequest | None) -> None:
+    def _begin(self) -> None:
         self.log = RunLog()
-        self.request = request
         self._rule = StopRule()
         self.phase = ""
         self.log_grew.emit()
@@ -106,8 +135,9 @@ class RunControl(QObject):
     def _state(self, state: str) -> None:
         self.state = state
         self.state_changed.emit()
-        if state == "done" and self.client.scene_path:
-            self.ended.emit(Path(self.client.scene_path))
+        scene = self.scene_path
+        if state == "done" and scene is not None and scene.exists():
+            self.ended.emit(scene)
 
     def _event(self, event: dict[str, Any]) -> None:
         points = len(self.log.accuracy)
@@ -122,14 +152,18 @@ class RunControl(QObject):
         self.snapshot.emit(snapshot)
 
     def _beat(self, beat: dict[str, Any]) -> None:
-        if "memory_mb" in beat:
-            self.log.add_memory(float(beat["memory_mb"]))
-        self.view_cost = float(beat.get("view_cost", 0.0))
+        self.log.add_memory(float(beat.get("rss_mb", 0.0)))
+        view = beat.get("view", {})
+        self.view_cost = float(view.get("publish_share") or 0.0) + float(view.get("draw_share") or 0.0)
         self.log_grew.emit()
 
-    def _phase(self, note: str) -> None:
+    def _phase(self, _phase: str, note: str) -> None:
         self.phase = note
         self.state_changed.emit()
+
+    def _acknowledged(self, _number: int, ok: bool, outcome: Any) -> None:
+        if not ok:
+            self.failed.emit(GenmojoError("argument", str(outcome).rstrip("."), "run"))
 
     def _died(self, report: DeathReport) -> None:
         self.died.emit(report)

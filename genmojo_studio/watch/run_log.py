@@ -65,7 +65,7 @@ class RunLog:
         elif kind == "EffectChanged":
             self.marks.append(Mark(at, "effect", f"{event['effect']} {'+' if event['on'] else '−'}: {event['reason']}"))
         elif kind == "ParameterChanged":
-            self.marks.append(Mark(at, "parameter", f"{event['name']} = {event['value']:g}"))
+            self.marks.append(Mark(at, "parameter", f"{event['name']}: {event['old']:g} → {event['new']:g}"))
         elif kind == "Checkpointed":
             self.marks.append(Mark(at, "checkpoint", str(event["step"])))
         elif kind == "Warned":

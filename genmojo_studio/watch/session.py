@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
@@ -60,7 +61,7 @@ class Session(QObject):
         self.scene_changed.emit()
         self.snapshot_changed.emit()
 
-    def _read(self, path: Path, work: Callable[[], object], done: Callable[[object], None]) -> None:
+    def _read(self, path: Path, work: Callable[[], object], done: Callable[[Any], None]) -> None:
         self.busy.emit(tr("Reading {name} …").format(name=path.name))
         self.path = path
         self._tasks.run(work, done, self._failed)

@@ -1,0 +1,143 @@
+"""The view by numbers: elevation, azimuth, roll, radius, field of view; directions; splat size; what the view rests on."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QFormLayout,
+    QGridLayout,
+    QLabel,
+    QPushButton,
+    QSlider,
+    QVBoxLayout,
+    QWidget,
+)
+
+from genmojo_core.errors import GenmojoError
+from genmojo_studio import notify
+from genmojo_studio.actions import ActionTable
+from genmojo_studio.translate import tr
+from genmojo_studio.view3d.orbit import Orbit, Reference, parse
+from genmojo_studio.watch.actions import VIEWS
+from genmojo_studio.watch.appearance import Appearance
+from genmojo_studio.watch.controls import number, row, set_role
+
+SAFE_DEGREES = 10.0  # a view this close to one that had supervision counts as seen
+
+
+class ViewPanel(QWidget):
+    """Typed numbers move the view, the view moves the numbers. `orbit_wanted(Orbit)`."""
+
+    orbit_wanted = Signal(object)
+
+    def __init__(self, actions: ActionTable, appearance: Appearance, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._appearance = appearance
+        self._orbit = Orbit()
+        self._reference: Reference | None = None
+        self.fields = {
+            "elevation": number(-180, 180, "°", 2, 5),
+            "azimuth": number(-180, 180, "°", 2, 5),
+            "roll": number(-180, 180, "°", 2, 5),
+            "radius": number(0.001, 1e6, "", 3, 0.1),
+            "fov": number(1, 170, "°", 2, 2),
+        }
+        titles = (tr("Elevation"), tr("Azimuth"), tr("Roll"), tr("Radius"), tr("Field of view"))
+        form = QFormLayout()
+        for (name, field), title in zip(self.fields.items(), titles, strict=True):
+            form.addRow(title, field)
+            field.valueChanged.connect(lambda value, name=name: self._typed(name, value))
+        self.badge = QLabel()
+        self.badge.setWordWrap(True)
+        self.splat_scale = QSlider(Qt.Orientation.Horizontal)
+        self.splat_scale.setRange(0, 300)
+        self.splat_scale.setValue(100)
+        self.background = QCheckBox(tr("Background"))
+        self.canonical = QCheckBox(tr("Without motion"))
+        form.addRow(tr("Splat size"), self.splat_scale)
+        form.addRow(self.background, self.canonical)
+        directions = QGridLayout()
+        directions.setSpacing(4)
+        for i, (name, text, key) in enumerate(VIEWS):
+            button = QPushButton(tr(text))
+            button.setToolTip(f"{tr(text)} ({key})")
+            button.clicked.connect(lambda _=False, name=name: actions.trigger(f"view.{name}"))
+            directions.addWidget(button, i // 2, i % 2)
+        copy, paste = QPushButton(tr("Copy")), QPushButton(tr("Paste"))
+        copy.setToolTip(tr("Copies these numbers as text"))
+        copy.clicked.connect(lambda: QGuiApplication.clipboard().setText(self._orbit.text()))
+        paste.clicked.connect(self._paste)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(8, 8, 8, 8)
+        layout.addLayout(form)
+        layout.addWidget(self.badge)
+        layout.addLayout(directions)
+        layout.addLayout(row(copy, paste))
+        layout.addStretch()
+        self.splat_scale.valueChanged.connect(self._scale)
+        self.background.clicked.connect(lambda: actions.trigger("view.background"))
+        self.canonical.clicked.connect(lambda: actions.trigger("view.canonical"))
+        appearance.changed.connect(self._show_look)
+        self._show_look()
+
+    def show_orbit(self, orbit: Orbit, reference: Reference, supervised: np.ndarray) -> None:
+        """Shows where the view is; `supervised` are rows (elevation, azimuth, frame) as in a snapshot."""
+        self._orbit, self._reference = orbit, reference
+        values = {
+            "elevation": orbit.elevation,
+            "azimuth": orbit.azimuth,
+            "roll": orbit.roll,
+            "radius": reference.radius if orbit.radius is None else orbit.radius,
+            "fov": reference.fov if orbit.fov is None else orbit.fov,
+        }
+        for name, field in self.fields.items():
+            field.blockSignals(True)
+            field.setValue(values[name])
+            field.blockSignals(False)
+        text, role = judged(orbit, supervised)
+        self.badge.setText(text)
+        set_role(self.badge, role)
+
+    def _typed(self, name: str, value: float) -> None:
+        self.orbit_wanted.emit(replace(self._orbit, **{name: value}))
+
+    def _paste(self) -> None:
+        try:
+            self.orbit_wanted.emit(parse(QGuiApplication.clipboard().text()))
+        except GenmojoError as error:
+            notify.tell(error, self)
+
+    def _scale(self, value: int) -> None:
+        self._appearance.set(replace(self._appearance.look, splat_scale=value / 100), tr("Splat size"), "splat")
+
+    def _show_look(self) -> None:
+        look = self._appearance.look
+        self.splat_scale.blockSignals(True)
+        self.splat_scale.setValue(round(look.splat_scale * 100))
+        self.splat_scale.blockSignals(False)
+        self.background.setChecked(look.show_background)
+        self.canonical.setChecked(look.canonical)
+
+
+def judged(orbit: Orbit, supervised: np.ndarray) -> tuple[str, str]:
+    """(sentence, role): how far the view is from the nearest one that had supervision (the input camera always had)."""
+    angles = np.concatenate([np.zeros((1, 2)), np.asarray(supervised, np.float64)[:, :2]])
+    here = _direction(np.array([[orbit.elevation, orbit.azimuth]]))
+    cosines = _direction(angles) @ here[0]
+    away = math.degrees(math.acos(min(max(float(cosines.max()), -1.0), 1.0)))
+    if away <= SAFE_DEGREES:
+        return tr("Seen: supervision reaches this view."), "good"
+    return tr("Not seen: {angle:.0f}° from the nearest supervised view.").format(angle=away), "warn"
+
+
+def _direction(angles: np.ndarray) -> np.ndarray:  # (M, 2) degrees -> (M, 3) unit
+    elevation, azimuth = np.deg2rad(angles).T
+    return np.stack(
+        [np.cos(elevation) * np.sin(azimuth), np.sin(elevation), np.cos(elevation) * np.cos(azimuth)], axis=1
+    )
