@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass, field, fields, replace
-from typing import Any
+from typing import Any, Literal
 
 from genmojo_core.errors import GenmojoError
 
@@ -72,7 +72,7 @@ class RunConfig:
     seed: int = 0
     device: str = "auto"
     prior: str = "none"  # embedded, none, zero123:DIR or zeronvs:DIR
-    prior_mode: str = "pseudo"  # how it is followed: sds, x0 or pseudo (priors/sds.py)
+    prior_mode: Literal["sds", "x0", "pseudo"] = "pseudo"  # how it is followed: sds, x0 or pseudo (priors/sds.py)
     prior_views: int = 4  # views per object and step
     prior_objects: int = 1  # objects per step that are shown to the prior; 0 = all
     method: str = "genmojo"

@@ -79,7 +79,7 @@ class UnseenViews:
         self.subjects = [_subject(clip, lifted, k, row) for k, row in lifted.rows.items()]
         self.seen: list[tuple[float, float, int]] = []
         self.best, self.share = 0.0, 0.0
-        self.added = self._complete(lifted, motions) if isinstance(prior, EmbeddedPrior) else 0
+        self.added = self._complete(prior, lifted, motions) if isinstance(prior, EmbeddedPrior) else 0
 
     def notes(self) -> list[str]:
         """One sentence per object the prior does not speak for, or only in some frames."""
@@ -161,23 +161,25 @@ class UnseenViews:
             pictures.append(torch.cat([drawn.features, drawn.alpha[..., None]], dim=-1).movedim(-1, 0))
         return torch.stack(pictures)
 
-    def _complete(self, lifted: Lifted, motions: Sequence[Moves]) -> int:
+    def _complete(self, prior: EmbeddedPrior, lifted: Lifted, motions: Sequence[Moves]) -> int:
         """Add Gaussians where the volume has surface that no frame shows; returns how many."""
         added = 0
         for one in self.subjects:
             row = lifted.rows[one.clip_index]
             if one.references:
-                added += self._complete_object(one, motions[one.clip_index], lifted.frames_of[row])
+                added += self._complete_object(prior, one, motions[one.clip_index], lifted.frames_of[row])
         return added
 
-    def _complete_object(self, one: Subject, motion: Moves, frame: tuple[np.ndarray, float]) -> int:
+    def _complete_object(
+        self, prior: EmbeddedPrior, one: Subject, motion: Moves, frame: tuple[np.ndarray, float]
+    ) -> int:
         t = min(one.references, key=lambda f: abs(f - motion.ref_frame))
-        one.conditions[t] = self.prior.encode(one.references[t].reference)
+        one.conditions[t] = prior.encode(one.references[t].reference)
         room = self.config.gaussians_per_object - len(one.model.gaussians)
         count = min(room, int(POINT_SHARE * self.config.gaussians_per_object))
         if count < 1:
             return 0
-        points = in_world(surface_points(self.prior, one.conditions[t], 4 * count), one.references[t])
+        points = in_world(surface_points(prior, one.conditions[t], 4 * count), one.references[t])
         points = points.moved(np.linalg.inv(motion.pose[t]))
         if motion.bend is not None:
             points = replace(points, xyz=motion.bend.undone(t, points.xyz))
