@@ -9,7 +9,7 @@ import math
 from enum import Enum
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRect, QRectF, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
@@ -46,6 +46,7 @@ class Canvas(QWidget):
     stroked = Signal(object, bool)  # (n, 2) raster points, True on the object
     hovered = Signal(float, float)
     zoomed = Signal(float)
+    cycled = Signal(int)  # Tab (1) or Shift+Tab (-1) in the frame
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -54,9 +55,10 @@ class Canvas(QWidget):
         self.setMinimumSize(320, 200)
         self.setAccessibleName(tr("Frame with points"))
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setCursor(Qt.CursorShape.BlankCursor)
         self.mapping, self.picture, self.loupe = Mapping(), Picture(), Loupe()
         self.tool, self.reticle = Tool.POINT, 18
-        self.show_overlay, self.ghost = True, None
+        self.show_overlay = True
         self.ghost: tuple[float, float] | None = None  # where snapping would put a click
         self.locked_on: tuple[float, float] | None = None  # raster place held in the middle of the view
         self._frame: np.ndarray | None = None
@@ -99,6 +101,22 @@ class Canvas(QWidget):
         self._background = QColor(colour)
         self.update()
 
+    def set_reticle(self, size: int) -> None:
+        """Length of the reticle's arms in widget pixels, 6 to 60."""
+        self.reticle = min(max(size, 6), 60)
+        self.update()
+
+    def set_overlay(self, on: bool) -> None:  # noqa: FBT001
+        """Show what is drawn over the frame, or the bare frame."""
+        self.show_overlay = on
+        self.update()
+
+    def set_tool(self, tool: Tool) -> None:
+        """What the left button does from now on."""
+        self.tool, self._stroke, self._press = tool, [], None
+        self.setCursor(Qt.CursorShape.BlankCursor if tool == Tool.POINT else Qt.CursorShape.CrossCursor)
+        self.update()
+
     def fit(self) -> None:
         """Show the whole frame, and keep doing so when the panel's size changes."""
         self._fit = True
@@ -124,6 +142,10 @@ class Canvas(QWidget):
         x, y = self.mapping.to_image(self._mouse.x(), self._mouse.y())
         inside = 0 <= x <= self._frame.shape[1] and 0 <= y <= self._frame.shape[0]
         return (x, y) if inside else None
+
+    def dragged_to(self) -> tuple[float, float] | None:
+        """Raster position of the point being dragged, None if none is."""
+        return self._drag_xy
 
     # ---- painting
 
@@ -276,6 +298,14 @@ class Canvas(QWidget):
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Keys belong to the actions of the workspace."""
         event.ignore()
+
+    def event(self, event: QEvent) -> bool:
+        """Tab goes through the points while the keyboard is here; F6 leaves."""
+        if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
+            if event.key() in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
+                self.cycled.emit(1 if event.key() == Qt.Key.Key_Tab else -1)
+                return True
+        return super().event(event)
 
     def leaveEvent(self, event: object) -> None:
         """No reticle without a mouse."""

@@ -40,6 +40,7 @@ class FrameCache(QObject):
         self._bad: dict[int, str] = {}
         self._busy: set[int] = set()
         self._target, self._direction, self.generation = 0, 1, 0
+        self._pinned: tuple[int, ...] = ()
         self._changed = threading.Condition()
         self._open = True
         sources = [source]
@@ -66,6 +67,13 @@ class FrameCache(QObject):
             self.generation += 1
             self._changed.notify_all()
             return self.generation
+
+    def pin(self, frames: list[int]) -> None:
+        """Frames that are wanted besides the target (loupe, strip) and stay while they are pinned."""
+        with self._changed:
+            inside = dict.fromkeys(f for f in frames if 0 <= f < self.count)
+            self._pinned = tuple(inside)[: max(self.capacity // 2, 1)]
+            self._changed.notify_all()
 
     def read(self, frame: int, seconds: float = 5.0) -> np.ndarray | None:
         """The frame, waited for; None after `seconds` or if it cannot be read. For pieces that cannot go on without."""
@@ -153,9 +161,10 @@ class FrameCache(QObject):
 
     def _wanted(self) -> Iterator[int]:
         """Target first, then the frames it moves towards, with one behind for every few ahead; those held at most."""
-        given = 0
+        given = len(self._pinned)
         if self._target not in self._bad:
             yield self._target
+        yield from (f for f in self._pinned if f not in self._bad)
         for k in range(1, self.capacity):
             places = [self._target + self._direction * k]
             if k % _BEHIND == 0:
@@ -170,7 +179,7 @@ class FrameCache(QObject):
     def _evict(self) -> None:
         """Drop the frames farthest from the target, those behind it first."""
         while len(self._frames) > self.capacity:
-            worst = max(self._frames, key=self._distance)
+            worst = max((f for f in self._frames if f not in self._pinned), key=self._distance)
             del self._frames[worst]
             self._masks.pop(worst, None)
 

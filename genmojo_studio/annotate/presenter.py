@@ -39,15 +39,25 @@ class Presenter:
     def contours(self, frame: int) -> dict:
         """Outlines of the objects in a frame, as `contours_of`."""
         labels = self._session.cache.mask(frame)
-        if labels is None or not self._session.mask_mode:
+        hand = self._session.hand_masks
+        if not self._session.mask_mode or (labels is None and (not hand or self._session.cache.has_masks)):
             return {}
         if frame not in self._contours:
             if len(self._contours) > 400:
                 self._contours.clear()
             ids = [o.id for o in self._session.objects()]
             ids += [i for i in self._session.annotation.objects if i not in ids]
-            self._contours[frame] = contours_of(labels, {i: n for n, i in enumerate(ids)})
+            places = {i: n for n, i in enumerate(ids)}
+            found = {} if labels is None else contours_of(labels, {i: n for i, n in places.items() if i not in hand})
+            for i, masks in hand.items():
+                found |= self._scaled(contours_of(masks[frame].astype(np.uint8) * np.uint8(i), {i: places.get(i, 0)}), masks)
+            self._contours[frame] = found
         return self._contours[frame]
+
+    def _scaled(self, found: dict, masks: np.ndarray) -> dict:
+        """Outlines of masks of another resolution (T, h, w) in raster pixels of the clip."""
+        scale = np.array(self._session.cache.size, np.float32) / np.array(masks.shape[2:0:-1], np.float32)
+        return {i: (place, [line * scale for line in lines]) for i, (place, lines) in found.items()}
 
     def forget_masks(self) -> None:
         """Masks have changed."""

@@ -60,6 +60,7 @@ class Session(QObject):
         self.painting: Painting | None = None
         self.suspicion: dict[int, np.ndarray] = {}  # track -> (T,) 0..1
         self.snap = False
+        self.hand_masks: dict[int, np.ndarray] = {}  # object id -> (T, h, w) bool, made in step 1
         self._back: list[tuple[int, tuple[int, int]]] = []
         self.annotation.listeners.append(self._touched)
         project.saved = lambda _seq, seconds: self.stored.emit(seconds)
@@ -102,6 +103,14 @@ class Session(QObject):
     def limit(self, name: str) -> int:
         """How many "objects" per clip or "points" per object this project wants."""
         return int(self.annotation.meta.get(f"limit_{name}", OBJECTS if name == "objects" else POINTS))
+
+    def mask_at(self, frame: int) -> np.ndarray | None:
+        """(h, w) object ids of a frame, from the clip or made by hand; None if there are none."""
+        labels = self.cache.mask(frame)
+        if labels is None and self.clip is not None and self.clip.masks is not None and self.hand_masks:
+            table = np.concatenate([[0], self.clip.object_ids]).astype(np.uint8)
+            return np.asarray(table[self.clip.masks.value[frame]])
+        return labels
 
     def title(self, object_id: int, number: int) -> str:
         """What a person calls a point."""

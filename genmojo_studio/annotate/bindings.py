@@ -1,0 +1,327 @@
+"""What the annotator's actions, clicks and buttons do: one table, so that every way leads to the same verb."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from genmojo_core.tracks import edit_tracks
+from genmojo_studio.annotate import verbs
+from genmojo_studio.annotate.canvas import Tool
+from genmojo_studio.annotate.dialogs import Dialogs
+from genmojo_studio.annotate.going import Going
+from genmojo_studio.annotate.refine_page import Spot
+from genmojo_studio.annotate.session import TRAILS
+from genmojo_studio.translate import tr
+
+if TYPE_CHECKING:
+    from genmojo_studio.annotate.workspace import AnnotateWorkspace
+
+Verb = Callable[[], object]
+
+
+def bind(workspace: AnnotateWorkspace) -> None:
+    """Connect a workspace that has just been given a session."""
+    _connect(workspace)
+    hands = Hands(workspace)
+    workspace.hands = hands
+    for name, verb in {**hands.going.table(), **hands.points(), **hands.tracks(), **hands.rest()}.items():
+        workspace.actions.bind(f"annotate.{name}", verb, hands.enabled(name), hands.checked(name))
+    held = workspace.held
+    for name, state in verbs.STATES.items():
+        held.add(f"annotate.point.{name}", hands.painter(state), hands.tapper(state), hands.paint_end)
+    held.add("annotate.view.loupe", hands.loupe_on, hands.loupe_toggle, hands.loupe_off)
+    held.add("annotate.view.hide", hands.hide, hands.hide_toggle, hands.show)
+
+
+def _connect(w: AnnotateWorkspace) -> None:
+    """Signals of the panels to each other."""
+    session, canvas, work = w.session, w.canvas, w.work
+    if session is None:
+        return
+    w.play.sheet.seek.connect(session.go)
+    w.play.sheet.picked.connect(session.select_track)
+    w.play.graphs.seek.connect(session.go)
+    w.strip.seek.connect(session.go)
+    for page in (w.points, w.refine, w.review):
+        page.tree.chosen.connect(session.select)
+    work.figures_ready.connect(w.objects.set_figures)
+    work.masks_changed.connect(w.screen_link.presenter.forget_masks)
+    work.masks_changed.connect(w.screen_link.refresh)
+    work.busy_changed.connect(w.say)
+    work.spots_ready.connect(w.refine.set_spots)
+    work.cutting.connect(w.objects.show_cutting)
+    work.tool_changed.connect(w.use_tool)
+    w.objects.tool_wanted.connect(work.use_tool)
+    w.objects.cut_wanted.connect(work.cut)
+    canvas.boxed.connect(work.add_box)
+    canvas.stroked.connect(work.add_stroke)
+    w.bar.stride_changed.connect(w.set_stride)
+
+
+class Hands:
+    """The verbs of one session, in terms of the workspace's widgets."""
+
+    def __init__(self, workspace: AnnotateWorkspace) -> None:
+        if workspace.session is None:
+            raise RuntimeError("a session is needed before its actions can be bound")
+        self._w, self._s = workspace, workspace.session
+        self.going = Going(workspace.session, workspace.play.player)
+        self.dialogs = Dialogs(workspace)
+        w = workspace
+        w.canvas.clicked.connect(self.clicked)
+        w.canvas.picked.connect(self._s.select_track)
+        w.canvas.dragged.connect(self.dragged)
+        w.canvas.toggled.connect(self.toggled)
+        w.canvas.hovered.connect(self.hovered)
+        w.canvas.cycled.connect(self.cycle)
+        w.play.sheet.painted.connect(self.painted)
+        w.refine.spot_chosen.connect(self.show_spot)
+        w.points.seed_wanted.connect(self.dialogs.seed)
+        w.review.merge_wanted.connect(self.dialogs.merge)
+        w.review.log_wanted.connect(self.dialogs.log)
+
+    # ---- tables
+
+    def points(self) -> dict[str, Verb]:
+        """Verbs of points."""
+        s = self._s
+        steps = {"left": (-1, 0), "right": (1, 0), "up": (0, -1), "down": (0, 1)}
+        table: dict[str, Verb] = {}
+        for n in range(1, 6):
+            table[f"point.choose_{n}"] = lambda n=n: s.select(s.active[0], n)
+            table[f"point.object_{n}"] = lambda n=n: self._object(n)
+        for side, (dx, dy) in steps.items():
+            table[f"point.nudge_{side}"] = lambda dx=dx, dy=dy: self.nudge(0.25 * dx, 0.25 * dy)
+            table[f"point.push_{side}"] = lambda dx=dx, dy=dy: self.nudge(dx, dy)
+        return table | {
+            "point.next": lambda: self.cycle(1),
+            "point.previous": lambda: self.cycle(-1),
+            "point.uncertain": lambda: verbs.toggle_uncertain(s),
+            "point.run_start": lambda: self._mark_run(0),
+            "point.run_end": lambda: self._mark_run(1),
+            "point.key": lambda: self._solved_after(verbs.toggle_key),
+            "point.delete_key": lambda: self._solved_after(verbs.delete_key),
+            "point.snap": self._toggle_snap,
+        }
+
+    def tracks(self) -> dict[str, Verb]:
+        """Verbs of tracks and of the review."""
+        s, w, tracker = self._s, self._w, self._w.work.tracker
+        return {
+            "track.seed": self.dialogs.seed,
+            "track.next": lambda: tracker.one(1),
+            "track.previous": lambda: tracker.one(-1),
+            "track.on": lambda: tracker.run(1),
+            "track.back": lambda: tracker.run(-1),
+            "track.solve": lambda: tracker.run(0),
+            "track.mode": lambda: verbs.set_mode(s),
+            "track.clear_after": lambda: verbs.clear(s, after=True),
+            "track.clear_before": lambda: verbs.clear(s, after=False),
+            "track.swap": self.dialogs.swap,
+            "track.lock": lambda: verbs.toggle_lock(s),
+            "track.delete": lambda: verbs.delete_track(s),
+            "review.fix": self.dialogs.fix,
+            "review.fixed": lambda: self._fixed(),
+            "review.approve": w.review.approve,
+            "review.merge": self.dialogs.merge,
+            "review.log": self.dialogs.log,
+        }
+
+    def rest(self) -> dict[str, Verb]:
+        """Verbs of the view, of history, files and steps."""
+        s, w = self._s, self._w
+        return {
+            "view.fit": w.canvas.fit,
+            "view.one": w.canvas.one_to_one,
+            "view.in": lambda: w.canvas.zoom(1.25),
+            "view.out": lambda: w.canvas.zoom(0.8),
+            "view.follow": lambda: w.screen_link.set_follow(not w.screen_link.follow),
+            "view.loupe_stay": self.loupe_toggle,
+            "view.masks": self._masks,
+            "view.trails": self._trails,
+            "view.strip": self._strip,
+            "view.reticle_larger": lambda: w.canvas.set_reticle(w.canvas.reticle + 4),
+            "view.reticle_smaller": lambda: w.canvas.set_reticle(w.canvas.reticle - 4),
+            "edit.undo": s.undo,
+            "edit.redo": s.redo,
+            "edit.checkpoint": self.dialogs.checkpoint,
+            "edit.history": self.dialogs.history,
+            "file.new_clip": lambda: w.actions.trigger("file.open_clip"),
+            "file.import": self.dialogs.import_tracks,
+            "file.export": self.dialogs.export_tracks,
+            "file.tour": w.start_tour,
+            "move.panel": w.next_panel,
+            **{f"step.{n}": (lambda n=n: w.show_step(n - 1)) for n in range(1, 5)},
+        }
+
+    def enabled(self, name: str) -> Callable[[], bool]:
+        """When an action is possible."""
+        s = self._s
+        needs_track = name.startswith(("track.", "review.fix", "review.approve", "point.key", "point.delete", "point.nudge",
+                                       "point.push", "point.uncertain", "move.key", "move.bisect"))  # fmt: skip
+        if name == "track.seed":
+            return lambda: self._w.session is s and bool(s.annotation.tracks)
+        if needs_track:
+            return lambda: self._w.session is s and s.track is not None
+        return lambda: self._w.session is s
+
+    def checked(self, name: str) -> Callable[[], bool] | None:
+        """Whether a switch is on."""
+        s, w = self._s, self._w
+        switches: dict[str, Callable[[], bool]] = {
+            "point.snap": lambda: s.snap,
+            "view.follow": lambda: w.screen_link.follow,
+            "view.loupe_stay": lambda: w.canvas.loupe.on,
+            "view.strip": lambda: w.strip.isVisible(),
+            "track.lock": lambda: s.track is not None and s.annotation.tracks[s.track].locked,
+        }
+        return switches.get(name)
+
+    # ---- mouse
+
+    def clicked(self, x: float, y: float) -> None:
+        """A click places the active point; in step 2 the next point follows."""
+        if self._w.canvas.tool != Tool.POINT or self._w.step == 0:
+            return
+        new = self._s.track is None
+        step = verbs.place(self._s, (x, y), snapped=self._w.canvas.ghost is not None)
+        if step is None:
+            return
+        if new and self._w.step == 1:
+            self._name_new()
+            self.going.next_unplaced()
+        elif self._s.track is not None:
+            self._w.work.tracker.after_key(self._s.track, self._s.frame, step)
+
+    def dragged(self, track: int, x: float, y: float) -> None:
+        """Letting go of a point makes a key and solves the segments on both sides, as one step."""
+        self._s.select_track(track)
+        step = verbs.set_key(self._s, track, (x, y))
+        if step is not None:
+            self._w.work.tracker.after_key(track, self._s.frame, step)
+
+    def nudge(self, dx: float, dy: float) -> None:
+        """Move the active point a little."""
+        step, track = verbs.nudge(self._s, dx, dy), self._s.track
+        if step is not None and track is not None:
+            self._w.work.tracker.after_key(track, self._s.frame, step)
+
+    def toggled(self, track: int) -> None:
+        """A right click hides a point, or shows it again."""
+        self._s.select_track(track)
+        verbs.paint_here(self._s, verbs.STATES["occluded"])
+
+    def hovered(self, x: float, y: float) -> None:
+        """Coordinates and trackability of the place under the mouse."""
+        self._w.show_position(x, y)
+
+    def painted(self, track: int, first: int, last: int) -> None:
+        """A drag over the dope sheet."""
+        verbs.paint(self._s, track, self._w.play.brush_state(), first, last)
+
+    def cycle(self, step: int) -> None:
+        """The next or previous point over all objects."""
+        self.going.cycle(step)
+
+    def show_spot(self, spot: Spot) -> None:
+        """Go to a suspicious spot."""
+        self._s.select_track(spot.track)
+        self._s.go(spot.frame, jump=True)
+
+    # ---- keys that are held
+
+    def painter(self, state: int) -> Verb:
+        """Begins to paint a state."""
+        return lambda: verbs.begin_painting(self._s, state)
+
+    def tapper(self, state: int) -> Verb:
+        """Paints a state here, once."""
+        return lambda: verbs.paint_here(self._s, state)
+
+    def paint_end(self) -> None:
+        """Ends painting."""
+        verbs.end_painting(self._s)
+
+    def loupe_on(self) -> None:
+        """Open the loupe."""
+        self._w.screen_link.set_loupe(True)
+
+    def loupe_off(self) -> None:
+        """Close the loupe."""
+        self._w.screen_link.set_loupe(False)
+
+    def loupe_toggle(self) -> None:
+        """Open or close the loupe."""
+        self._w.screen_link.set_loupe(not self._w.canvas.loupe.on)
+
+    def hide(self) -> None:
+        """Show the bare frame."""
+        self._w.canvas.set_overlay(False)
+
+    def show(self) -> None:
+        """Show what is drawn over the frame."""
+        self._w.canvas.set_overlay(True)
+
+    def hide_toggle(self) -> None:
+        """Show or hide what is drawn."""
+        self._w.canvas.set_overlay(not self._w.canvas.show_overlay)
+
+    # ---- helpers
+
+    def _object(self, place: int) -> None:
+        objects = self._s.objects()
+        if place <= len(objects):
+            self._s.select(objects[place - 1].id, self._s.active[1])
+
+    def _mark_run(self, end: int) -> None:
+        ends = list(self._s.run)
+        ends[end] = self._s.frame
+        self._s.run = (ends[0], ends[1])
+        self._s.settings_changed.emit()
+        self._s.shown.emit()
+        self._w.play.sheet.viewport().update()
+        first, last = verbs.marked_run(self._s)
+        self._s.said.emit(tr("Marked: frames {a} to {b}. A state or X applies to them.").format(a=first, b=last))
+
+    def _solved_after(self, verb: Callable[..., object]) -> None:
+        verb(self._s)
+        if self._s.track is not None:
+            self._w.work.tracker.after_key(self._s.track, self._s.frame, self._s.project.log.head)
+
+    def _fixed(self) -> None:
+        track = self._s.track
+        if track is not None:
+            verbs.attempt(self._s, lambda: edit_tracks.fixed(self._s.annotation, track))
+
+    def _name_new(self) -> None:
+        """A new point takes the template's name, in the same step."""
+        track, name = self._s.track, self._w.points.point_name(self._s.active[1])
+        if track is not None and name:
+            edit = edit_tracks.update_track(self._s.annotation, track, name=name)
+            self._s.do(edit, self._s.project.log.edit(self._s.project.log.head).step)
+
+    def _toggle_snap(self) -> None:
+        self._s.snap = not self._s.snap
+        self._w.canvas.ghost = None
+        self._w.canvas.update()
+
+    def _masks(self) -> None:
+        self._s.mask_mode = (self._s.mask_mode + 1) % 3
+        self._s.shown.emit()
+
+    def _trails(self) -> None:
+        self._s.trail = TRAILS[(TRAILS.index(self._s.trail) + 1) % len(TRAILS)]
+        self._s.shown.emit()
+
+    def _strip(self) -> None:
+        self._w.strip.setVisible(not self._w.strip.isVisible())
+        self._s.shown.emit()
+
+
+def position_text(x: float, y: float, size: tuple[int, int]) -> str:
+    """Raster position for the status line, "" outside the frame."""
+    inside = 0 <= x <= size[0] and 0 <= y <= size[1] and np.isfinite([x, y]).all()
+    return f"x {x:.2f}   y {y:.2f}" if inside else ""

@@ -1,0 +1,162 @@
+"""The button panel: the actions of a step, with their keys, in groups; and the step bar above everything."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtWidgets import (
+    QButtonGroup,
+    QFrame,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QScrollArea,
+    QSizePolicy,
+    QSpinBox,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from genmojo_studio.actions import ActionTable
+from genmojo_studio.annotate.steps import STEPS, Step
+from genmojo_studio.translate import tr
+
+
+class ButtonPanel(QScrollArea):
+    """Buttons of the step on show; every one of them also has a key and a menu entry."""
+
+    def __init__(self, actions: ActionTable, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._actions = actions
+        self._buttons: dict[str, QToolButton] = {}
+        self._step: Step | None = None
+        self.setWidgetResizable(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setMinimumWidth(158)
+        self.setAccessibleName(tr("Buttons of this step"))
+        actions.subscribe(self.refresh)
+
+    def sizeHint(self) -> QSize:
+        """Narrow."""
+        return QSize(176, 500)
+
+    def show_step(self, step: Step) -> None:
+        """Put a step's buttons on show."""
+        self._step, self._buttons = step, {}
+        inside = QWidget()
+        column = QVBoxLayout(inside)
+        column.setContentsMargins(8, 6, 8, 8)
+        column.setSpacing(4)
+        for title, names in step.buttons:
+            label = QLabel(tr(title))
+            label.setProperty("role", "dim")
+            column.addWidget(label)
+            for name in names:
+                button = self._button(name)
+                self._buttons[name] = button
+                column.addWidget(button)
+            column.addSpacing(5)
+        column.addStretch()
+        self.setWidget(inside)
+        self.refresh()
+
+    def button(self, action_id: str) -> QToolButton:
+        """The button of an action, for tests and tours."""
+        return self._buttons[action_id]
+
+    def refresh(self) -> None:
+        """Keys, ticks and what is possible."""
+        for name, button in self._buttons.items():
+            action = self._actions[name]
+            key = next(iter(self._actions.keys(name)), "")
+            button.setText(f"{tr(action.text).rstrip('…')}  {key}" if key else tr(action.text))
+            button.setToolTip(tr(action.help))
+            button.setEnabled(self._actions.is_enabled(name))
+            button.setChecked(self._actions.is_checked(name))
+
+    def _button(self, name: str) -> QToolButton:
+        button = QToolButton()
+        button.setCheckable(self._actions[name].checkable)
+        button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        button.setObjectName(name)
+        button.setAccessibleName(tr(self._actions[name].text))
+        button.clicked.connect(self._clicked)
+        return button
+
+    def _clicked(self) -> None:
+        sender = self.sender()
+        if isinstance(sender, QToolButton):
+            self._actions.trigger(sender.objectName())
+            self.refresh()
+
+
+class StepBar(QWidget):
+    """Clip, the four steps with what each still lacks, stride, and whether everything is on the disk."""
+
+    chosen = Signal(int)
+    stride_changed = Signal(int)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(8, 3, 8, 3)
+        row.setSpacing(6)
+        self._group = QButtonGroup(self)
+        self.buttons: list[QToolButton] = []
+        for n, step in enumerate(STEPS):
+            button = QToolButton()
+            button.setText(f"{n + 1}  {tr(step.title)}")
+            button.setCheckable(True)
+            button.setToolTip(f"{tr(step.task)}  (Alt+{n + 1})")
+            self._group.addButton(button, n)
+            self.buttons.append(button)
+            row.addWidget(button)
+            if n < len(STEPS) - 1:
+                row.addWidget(QLabel("›"))
+        self._group.idClicked.connect(self.chosen)
+        self.task = QLabel()
+        self.task.setProperty("role", "dim")
+        self.task.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        row.addSpacing(8)
+        row.addWidget(self.task, 1)
+        self.position = QLabel()
+        self.position.setMinimumWidth(150)
+        row.addWidget(self.position)
+        row.addWidget(QLabel(tr("stride")))
+        self.stride = QSpinBox(minimum=1, maximum=10, value=2)
+        self.stride.setAccessibleName(tr("Stride in frames"))
+        self.stride.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+        self.stride.valueChanged.connect(self.stride_changed)
+        row.addWidget(self.stride)
+        self.saved = QLabel()
+        self.saved.setProperty("role", "dim")
+        self.saved.setMinimumWidth(120)
+        self.saved.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        row.addWidget(self.saved)
+
+    def show_step(self, place: int, missing: list[str]) -> None:
+        """Mark a step as the current one; `missing` says per step what it still lacks."""
+        for n, (button, text) in enumerate(zip(self.buttons, missing, strict=True)):
+            button.setChecked(n == place)
+            button.setText(f"{n + 1}  {tr(STEPS[n].title)}{'' if text else '  ✓'}")
+            button.setToolTip(f"{tr(STEPS[n].task)}\n{text or tr('Done.')}  (Alt+{n + 1})")
+        self.task.setText(missing[place] or tr("This step is done."))
+        self.task.setToolTip(tr(STEPS[place].task))
+
+
+def grid_of(pairs: list[tuple[str, QWidget]], parent: QWidget | None = None) -> QWidget:
+    """A form of labels and widgets without wasted room."""
+    inside = QWidget(parent)
+    grid = QGridLayout(inside)
+    grid.setContentsMargins(0, 0, 0, 0)
+    grid.setHorizontalSpacing(8)
+    grid.setVerticalSpacing(3)
+    for row, (title, widget) in enumerate(pairs):
+        label = QLabel(title)
+        label.setProperty("role", "dim")
+        label.setBuddy(widget)
+        grid.addWidget(label, row, 0)
+        grid.addWidget(widget, row, 1)
+    grid.setColumnStretch(1, 1)
+    return inside

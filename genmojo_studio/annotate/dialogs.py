@@ -1,0 +1,100 @@
+"""What the annotator asks before it acts. Each dialog asks; the deed itself is a verb elsewhere."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QPoint
+from PySide6.QtWidgets import QFileDialog, QInputDialog, QMenu
+
+from genmojo_core.errors import GenmojoError
+from genmojo_core.tracks import edit_tracks
+from genmojo_core.tracks.annotation import REASONS
+from genmojo_studio import notify
+from genmojo_studio.annotate import verbs
+from genmojo_studio.translate import tr
+
+if TYPE_CHECKING:
+    from genmojo_studio.annotate.workspace import AnnotateWorkspace
+
+
+class Dialogs:
+    """The dialogs of one workspace; tests answer them through the widgets they open."""
+
+    def __init__(self, workspace: AnnotateWorkspace) -> None:
+        if workspace.session is None:
+            raise RuntimeError("a session is needed before its dialogs can be made")
+        self._w, self._s = workspace, workspace.session
+
+    def seed(self) -> None:
+        """Which tracker, which tracks; then it runs in the background."""
+        self._w.work.tracker.seed(list(self._s.annotation.tracks))
+
+    def fix(self) -> None:
+        """What is wrong, by a key from 1 to 6; the run marked, or this frame, is meant."""
+        menu = QMenu(tr("What is wrong?"), self._w)
+        for n, reason in enumerate(REASONS):
+            menu.addAction(f"&{n + 1}  {tr(reason)}")
+        at = self._w.canvas.mapToGlobal(QPoint(self._w.canvas.width() // 2 - 80, self._w.canvas.height() // 3))
+        chosen = menu.exec(at)
+        if chosen is not None:
+            self._w.review.needs_fix(menu.actions().index(chosen))
+
+    def swap(self) -> None:
+        """With which point; from this frame on."""
+        s = self._s
+        others = [i for i in s.annotation.tracks.values() if i.id != s.track]
+        if s.track is None or not others:
+            return
+        titles = [s.title(i.object, i.number) for i in others]
+        title, chosen = QInputDialog.getItem(self._w, tr("Swap"), tr("From this frame on, swap with"), titles, 0, False)  # noqa: FBT003
+        if chosen:
+            one, other = s.track, others[titles.index(title)].id
+            last = s.annotation.frames - 1
+            verbs.attempt(s, lambda: edit_tracks.swap(s.annotation, one, other, s.frame, last))
+
+    def checkpoint(self) -> None:
+        """A name for what stands now."""
+        name, given = QInputDialog.getText(self._w, tr("Name this moment"), tr("Name"))
+        if given and name.strip():
+            self._try(lambda: self._s.project.checkpoint(name.strip()[:80]))
+            self._s.said.emit(tr("Named: {name}").format(name=name))
+
+    def history(self) -> None:
+        """Go back to a named moment."""
+        rows = self._s.project.checkpoints()
+        if not rows:
+            self._s.said.emit(tr("No moment has a name yet (Ctrl+S)."))
+            return
+        titles = [f"{row.title}   {row.at[:16]}" for row in rows[::-1]]
+        title, chosen = QInputDialog.getItem(self._w, tr("Named moments"), tr("Go back to"), titles, 0, False)  # noqa: FBT003
+        if chosen:
+            row = rows[::-1][titles.index(title)]
+            step = self._s.project.go_to(row.parent)
+            if step is not None:
+                self._s.show_step(step, tr("Back at: ") + row.title)
+
+    def merge(self) -> None:
+        """Compare with a second annotator's file."""
+
+    def log(self) -> None:
+        """Who did what, and how long it took."""
+
+    def import_tracks(self) -> None:
+        """Tracks of a file become proposals."""
+
+    def export_tracks(self) -> None:
+        """Tracks into a file."""
+        from genmojo_core.store.npz import write_tracks
+
+        name, _ = QFileDialog.getSaveFileName(self._w, tr("Export tracks"), "tracks.npz", "npz (*.npz)")
+        if name:
+            self._try(lambda: write_tracks(Path(name), self._s.annotation.to_tracks()))
+
+    def _try(self, work: object) -> None:
+        try:
+            if callable(work):
+                work()
+        except GenmojoError as error:
+            notify.tell(error, self._w)

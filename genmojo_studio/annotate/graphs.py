@@ -1,0 +1,106 @@
+"""Curves of the active track over time: position, speed, confidence, suspicion. A click goes to that frame."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QVBoxLayout, QWidget
+
+from genmojo_core.tracks.annotation import KEY
+from genmojo_core.tracks.model import NONE
+from genmojo_studio.annotate.colours import point_colour
+from genmojo_studio.annotate.session import Session
+from genmojo_studio.translate import tr
+
+CURVES = ("x", "y", "speed", "acceleration", "confidence", "suspicion")
+
+
+class Graphs(QWidget):
+    """One plot with the curve chosen, of the active track and faintly of its object's others."""
+
+    seek = Signal(int)
+    pulled = Signal(int, str, float)  # frame, "x" or "y", raster value a key was dragged to
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self.measures: dict[int, dict[str, np.ndarray]] = {}  # track -> name -> (T,), e.g. forward-backward error
+        self.choice = QComboBox()
+        self.choice.addItems([tr("x"), tr("y"), tr("speed (px per frame)"), tr("acceleration"), tr("confidence"),
+                              tr("suspicion"), tr("forward-backward error (px)"), tr("likeness (NCC)")])  # fmt: skip
+        self.choice.setAccessibleName(tr("Curve"))
+        self.choice.currentIndexChanged.connect(self.refresh)
+        self.plot = pg.PlotWidget()
+        self.plot.setAccessibleName(tr("Curve over frames"))
+        self.plot.showGrid(x=True, y=True, alpha=0.2)
+        self.plot.setLabel("bottom", tr("frame"))
+        self.plot.setMenuEnabled(False)
+        self.plot.getPlotItem().hideButtons()
+        self.plot.setBackground(None)
+        self._now = pg.InfiniteLine(angle=90, pen=pg.mkPen(70, 140, 220, width=2))
+        self.plot.addItem(self._now)
+        self.plot.scene().sigMouseClicked.connect(self._clicked)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(4, 4, 4, 4)
+        left = QVBoxLayout()
+        left.addWidget(self.choice)
+        left.addStretch()
+        row.addLayout(left)
+        row.addWidget(self.plot, 1)
+        self._lines: list[pg.PlotDataItem] = []
+        session.edited.connect(self._later)
+        session.selected.connect(self._later)
+        session.frame_changed.connect(self._move)
+
+    def showEvent(self, event: object) -> None:
+        """Curves are made when they are looked at."""
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Draw the curves again."""
+        for line in self._lines:
+            self.plot.removeItem(line)
+        self._lines = []
+        session = self._session
+        place = session.place_of(session.active[0])
+        for info in session.annotation.tracks_of(session.active[0]):
+            values = self._values(info.id)
+            own = info.id == session.track
+            colour = (*point_colour(place, info.number - 1), 255 if own else 70)
+            self._lines.append(self.plot.plot(np.arange(len(values)), values, pen=pg.mkPen(colour, width=2 if own else 1),
+                                              connect="finite"))  # fmt: skip
+            if own:
+                keys = session.annotation.keys(info.id)
+                self._lines.append(self.plot.plot(keys, values[keys], pen=None, symbol="d", symbolSize=9,
+                                                  symbolBrush="w", symbolPen="k"))  # fmt: skip
+        self._move(session.frame)
+
+    def _values(self, track: int) -> np.ndarray:  # (T,), NaN where unknown
+        cells = self._session.annotation.track(track)
+        xy = np.where((cells.state == NONE)[:, None], np.nan, cells.xy.astype(float))
+        kind = self.choice.currentIndex()
+        if kind < 2:
+            return xy[:, kind]
+        if kind < 4:
+            steps = np.diff(xy, axis=0, n=kind - 1)
+            length = np.hypot(steps[:, 0], steps[:, 1])
+            return np.concatenate([np.full(len(xy) - len(length), np.nan), length])
+        if kind == 4:
+            return np.where(cells.flags & KEY, 1.0, cells.conf)
+        if kind == 5:
+            return self._session.suspicion.get(track, np.zeros(len(xy)))
+        return self.measures.get(track, {}).get("fb" if kind == 6 else "ncc", np.full(len(xy), np.nan))
+
+    def _later(self, _what: object = None) -> None:
+        if self.isVisible():
+            self.refresh()
+
+    def _move(self, frame: int) -> None:
+        if self.isVisible():
+            self._now.setValue(frame)
+
+    def _clicked(self, event: object) -> None:
+        place = self.plot.getPlotItem().vb.mapSceneToView(event.scenePos())  # type: ignore[attr-defined]
+        if event.button() == Qt.MouseButton.LeftButton:  # type: ignore[attr-defined]
+            self.seek.emit(round(place.x()))

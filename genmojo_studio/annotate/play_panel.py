@@ -1,0 +1,159 @@
+"""The video play panel: transport, frame and time, speed; below it the dope sheet or the graphs."""
+
+from __future__ import annotations
+
+import time
+
+from PySide6.QtCore import QObject, Qt, QTimer, Signal
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QTabWidget, QToolButton, QVBoxLayout, QWidget
+
+from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE
+from genmojo_studio.actions import ActionTable
+from genmojo_studio.annotate.dope_sheet import DopeSheet
+from genmojo_studio.annotate.graphs import Graphs
+from genmojo_studio.annotate.session import Session
+from genmojo_studio.translate import tr
+
+SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0)
+_TRANSPORT = (("move.first", "⏮"), ("move.stride_previous", "⏪"), ("move.previous", "◀"), ("move.play", "▶"),
+              ("move.next", "▶❘"), ("move.stride_next", "⏩"), ("move.last", "⏭"))  # fmt: skip
+
+
+class Player(QObject):
+    """Moves the session's frame along the clip's own clock; drops frames rather than time."""
+
+    toggled = Signal(bool)
+
+    def __init__(self, session: Session, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self.speed, self.loop = 1.0, None
+        self.loop: tuple[int, int] | None = None
+        self._timer = QTimer(self)
+        self._timer.setTimerType(Qt.TimerType.PreciseTimer)
+        self._timer.setInterval(8)
+        self._timer.timeout.connect(self._tick)
+        self._began, self._from = 0.0, 0
+
+    @property
+    def playing(self) -> bool:
+        """True while time runs."""
+        return self._timer.isActive()
+
+    def toggle(self, loop: tuple[int, int] | None = None) -> None:
+        """Play or pause; with `loop`, first and last frame are repeated."""
+        if self.playing and loop == self.loop:
+            self.stop()
+            return
+        self.loop = loop
+        last = self._session.annotation.frames - 1
+        if loop is None and self._session.frame >= last:
+            self._session.go(0)
+        if loop is not None and not loop[0] <= self._session.frame < loop[1]:
+            self._session.go(loop[0])
+        self._began, self._from = time.monotonic(), self._session.frame
+        self._timer.start()
+        self._session.state.set(playing=True)
+        self.toggled.emit(True)
+
+    def stop(self) -> None:
+        """Pause."""
+        self._timer.stop()
+        self._session.state.set(playing=False)
+        self.toggled.emit(False)
+
+    def _tick(self) -> None:
+        seconds = self._session.cache.seconds
+        now = seconds[self._from] + (time.monotonic() - self._began) * self.speed
+        last = self.loop[1] if self.loop else len(seconds) - 1
+        frame = int(seconds.searchsorted(now, side="right")) - 1
+        if frame <= last and now <= seconds[last] + 0.04:
+            if frame != self._session.frame:
+                self._session.go(min(frame, last))
+        elif self.loop:
+            self._session.go(self.loop[0])
+            self._began, self._from = time.monotonic(), self.loop[0]
+        else:
+            self._session.go(last)
+            self.stop()
+
+
+class PlayPanel(QWidget):
+    """Transport above, dope sheet and graphs below."""
+
+    def __init__(self, session: Session, actions: ActionTable, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._actions = session, actions
+        self.player = Player(session, self)
+        self.sheet, self.graphs = DopeSheet(session), Graphs(session)
+        self.brush = QComboBox()
+        self.tabs = QTabWidget()
+        self.tabs.addTab(self.sheet, tr("Dope sheet"))
+        self.tabs.addTab(self.graphs, tr("Graphs"))
+        self.tabs.setDocumentMode(True)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(4, 2, 4, 2)
+        column.setSpacing(2)
+        column.addLayout(self._transport())
+        column.addWidget(self.tabs, 1)
+        session.frame_changed.connect(self._show_frame)
+        self.player.toggled.connect(self._show_playing)
+        self._show_frame(session.frame)
+
+    def brush_state(self) -> int:
+        """The state that a drag over the dope sheet paints."""
+        return int(self.brush.currentData())
+
+    def _transport(self) -> QHBoxLayout:
+        row = QHBoxLayout()
+        row.setSpacing(3)
+        self.buttons: dict[str, QToolButton] = {}
+        for name, glyph in _TRANSPORT:
+            action = self._actions[f"annotate.{name}"]
+            button = QToolButton(text=glyph, toolTip=f"{tr(action.text)} ({', '.join(self._actions.keys(action.id))})")
+            button.setAccessibleName(tr(action.text))
+            button.setObjectName(action.id)
+            button.setAutoRepeat(action.repeats)
+            button.clicked.connect(self._clicked)
+            self.buttons[name] = button
+            row.addWidget(button)
+        self.position = QLabel()
+        self.position.setMinimumWidth(190)
+        row.addSpacing(8)
+        row.addWidget(self.position)
+        row.addStretch()
+        row.addWidget(QLabel(tr("drag paints")))
+        for state, title in ((OCCLUDED, tr("occluded")), (OUT_OF_VIEW, tr("out of view")), (VISIBLE, tr("visible"))):
+            self.brush.addItem(title, state)
+        self.brush.setAccessibleName(tr("State that a drag paints"))
+        row.addWidget(self.brush)
+        sort = QToolButton(text=tr("worst first"), checkable=True, toolTip=tr("Order the rows by suspicion"))
+        sort.toggled.connect(self.sheet.sort_by_suspicion)
+        row.addWidget(sort)
+        self.speed = QComboBox()
+        for speed in SPEEDS:
+            self.speed.addItem(f"{speed:g}×", speed)
+        self.speed.setCurrentIndex(SPEEDS.index(1.0))
+        self.speed.setAccessibleName(tr("Speed"))
+        self.speed.currentIndexChanged.connect(self._take_speed)
+        row.addWidget(self.speed)
+        return row
+
+    def _clicked(self) -> None:
+        sender = self.sender()
+        if sender is not None:
+            self._actions.trigger(sender.objectName())
+
+    def _take_speed(self) -> None:
+        self.player.speed = float(self.speed.currentData())
+        if self.player.playing:
+            self.player.toggle(self.player.loop)
+            self.player.toggle(self.player.loop)
+
+    def _show_frame(self, frame: int) -> None:
+        last = self._session.annotation.frames - 1
+        seconds = self._session.cache.seconds[min(frame, len(self._session.cache.seconds) - 1)]
+        self.position.setText(tr("frame {n} of {last}   {s:.2f} s").format(n=frame, last=last, s=seconds))
+
+    def _show_playing(self, playing: bool) -> None:  # noqa: FBT001
+        self.buttons["move.play"].setText("⏸" if playing else "▶")

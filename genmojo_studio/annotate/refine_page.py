@@ -1,0 +1,129 @@
+"""Step 3: the active point in figures and words, and the queue of suspicious spots, worst first."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtWidgets import QLabel, QLineEdit, QListWidget, QListWidgetItem, QSplitter, QVBoxLayout, QWidget
+
+from genmojo_core.tracks.annotation import KEY
+from genmojo_core.tracks.edit_tracks import update_track
+from genmojo_studio.annotate.button_panel import grid_of
+from genmojo_studio.annotate.session import Session
+from genmojo_studio.annotate.track_tree import TrackTree, state_name
+from genmojo_studio.translate import tr
+
+MOST_SHOWN = 200
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A run of frames of a track that may be wrong: worst frame, first and last, how sure (0..1), reasons in words."""
+
+    track: int
+    frame: int
+    first: int
+    last: int
+    doubt: float
+    reasons: tuple[str, ...]
+
+
+class RefinePage(QWidget):
+    """Tree, details, queue."""
+
+    spot_chosen = Signal(object)  # Spot
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self.spots: list[Spot] = []
+        self.tree = TrackTree(session, ("state", "doubt"))
+        self.place, self.state, self.seed, self.why = QLabel(), QLabel(), QLabel(), QLabel(wordWrap=True)
+        self.note = QLineEdit(placeholderText=tr("note about this track"))
+        self.queue = QListWidget()
+        self.queue.setAccessibleName(tr("Suspicious spots, worst first"))
+        self.title = QLabel()
+        self.title.setProperty("role", "dim")
+        self.why.setMinimumHeight(34)
+        self.why.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self._arrange()
+        self._later = QTimer(self, singleShot=True, interval=60)
+        self._later.timeout.connect(self.refresh)
+        self.queue.itemActivated.connect(self._activated)
+        self.queue.itemClicked.connect(self._activated)
+        self.note.editingFinished.connect(self._keep_note)
+        session.shown.connect(self._later.start)
+        session.frame_changed.connect(self._frame_changed)
+        self.set_spots([])
+
+    def set_spots(self, spots: list[Spot]) -> None:
+        """Show the queue."""
+        self.spots = spots
+        self.title.setText(tr("Queue: {n} left (N goes to the next)").format(n=len(spots)))
+        self.queue.clear()
+        for spot in spots[:MOST_SHOWN]:
+            info = self._session.annotation.tracks.get(spot.track)
+            if info is None:
+                continue
+            where = f"{spot.first}–{spot.last}" if spot.last > spot.first else str(spot.first)
+            text = f"{self._session.title(info.object, info.number)}   {where}   {', '.join(spot.reasons[:2])}"
+            item = QListWidgetItem(text, self.queue)
+            item.setData(Qt.ItemDataRole.UserRole, spot)
+            item.setToolTip("\n".join(spot.reasons))
+        self.refresh()
+
+    def refresh(self) -> None:
+        """The active point in this frame."""
+        session, track = self._session, self._session.track
+        if track is None:
+            for label in (self.place, self.state, self.seed, self.why):
+                label.setText("–")
+            return
+        cells = session.annotation.cells(track, np.array([session.frame]))
+        x, y = cells.xy[0]
+        self.place.setText(f"x {x:.2f}   y {y:.2f}" if cells.state[0] else "–")
+        marks = ", ".join(name for bit, name in ((KEY, tr("key")), (4, tr("accepted")), (2, tr("uncertain")),
+                                                 (8, tr("snapped"))) if cells.flags[0] & bit)  # fmt: skip
+        self.state.setText(state_name(int(cells.state[0])) + (f"  ({marks})" if marks else ""))
+        sources = ("–", tr("a person"), tr("tracker"), tr("flow"), tr("line"), tr("import"), tr("hold"))
+        made = sources[int(cells.source[0])] if int(cells.source[0]) < len(sources) else "?"
+        self.seed.setText(f"{made}, {tr('confidence')} {cells.conf[0]:.2f}")
+        spot = next((s for s in self.spots if s.track == track and s.first <= session.frame <= s.last), None)
+        info = session.annotation.tracks[track]
+        reason = f"{tr('Reviewer')}: {info.reason} {info.note}".strip() if info.review == "needs_fix" else ""
+        self.why.setText("; ".join(filter(None, (reason, *(spot.reasons[:2] if spot else ())))) or tr("nothing"))
+        if not self.note.hasFocus():
+            self.note.setText(info.note)
+
+    def _arrange(self) -> None:
+        below = QWidget()
+        column = QVBoxLayout(below)
+        column.setContentsMargins(0, 2, 0, 0)
+        column.setSpacing(4)
+        column.addWidget(grid_of([(tr("place"), self.place), (tr("state"), self.state), (tr("made by"), self.seed),
+                                  (tr("why"), self.why), (tr("note"), self.note)]))  # fmt: skip
+        column.addWidget(self.title)
+        column.addWidget(self.queue, 1)
+        split = QSplitter(Qt.Orientation.Vertical)
+        split.addWidget(self.tree)
+        split.addWidget(below)
+        split.setStretchFactor(0, 3)
+        split.setStretchFactor(1, 4)
+        split.setChildrenCollapsible(False)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(8, 6, 8, 6)
+        outer.addWidget(split)
+
+    def _frame_changed(self, _frame: int) -> None:
+        self._later.start()
+
+    def _activated(self, item: QListWidgetItem) -> None:
+        self.spot_chosen.emit(item.data(Qt.ItemDataRole.UserRole))
+
+    def _keep_note(self) -> None:
+        session, track = self._session, self._session.track
+        if track is not None and self.note.text() != session.annotation.tracks[track].note:
+            edit = update_track(session.annotation, track, tr("Note"), session.frame, note=self.note.text()[:400])
+            session.do(edit)

@@ -1,0 +1,143 @@
+"""Keeps the canvas in step with the session: a frame and its overlay change together, or not at all."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import QObject
+
+from genmojo_core.tracks.model import NONE
+from genmojo_studio.annotate.canvas import Canvas
+from genmojo_studio.annotate.loupe import Source
+from genmojo_studio.annotate.presenter import Presenter
+from genmojo_studio.annotate.session import Session
+from genmojo_studio.annotate.snap import snapped
+from genmojo_studio.annotate.strip import Strip
+
+
+class Screen(QObject):
+    """Shows the session's frame as soon as it is decoded; feeds the loupe, the snap and the strip."""
+
+    def __init__(self, session: Session, canvas: Canvas, strip: Strip) -> None:
+        super().__init__(canvas)
+        self._session, self._canvas, self._strip = session, canvas, strip
+        self.presenter = Presenter(session)
+        self.follow = False
+        self.painted = -1  # the frame on show
+        session.frame_changed.connect(self.show_frame)
+        session.shown.connect(self.refresh)
+        session.edited.connect(self._edited)
+        session.cache.arrived.connect(self._arrived)
+        canvas.hovered.connect(self._hovered)
+
+    def show_frame(self, frame: int) -> None:
+        """Put a frame on show; the old picture stays whole until the new one is there."""
+        self._session.cache.want(frame)
+        if self._session.cache.get(frame) is not None:
+            self._paint(frame)
+
+    def refresh(self) -> None:
+        """Paint the frame on show again with what stands now."""
+        self._pin()
+        if self.painted >= 0:
+            self._paint(self.painted)
+
+    def set_loupe(self, on: bool) -> None:  # noqa: FBT001
+        """Open or close the loupe."""
+        self._canvas.loupe.on = on
+        self._pin()
+        if on:
+            self._feed_loupe()
+        self._canvas.update()
+
+    def set_follow(self, on: bool) -> None:  # noqa: FBT001
+        """Keep the active point in the middle."""
+        self.follow = on
+        if not on:
+            self._canvas.locked_on = None
+        self.refresh()
+
+    def place(self) -> tuple[float, float] | None:
+        """Where the active point is in the frame on show."""
+        return self._place_in(self.painted)
+
+    def _paint(self, frame: int) -> None:
+        picture = self._session.cache.get(frame)
+        if picture is None:
+            return
+        if frame != self.painted:
+            self._canvas.ghost = None
+        self.painted = frame
+        if self.follow:
+            self._canvas.locked_on = self.place() or self._canvas.locked_on
+        if self._canvas.loupe.on:
+            self._feed_loupe()
+        self._canvas.show_frame(picture, self.presenter.picture(frame))
+
+    def _arrived(self, frame: int, _generation: int) -> None:
+        if frame == self._session.frame:
+            self._paint(frame)
+
+    def _edited(self, touched: object) -> None:
+        if getattr(touched, "objects", None):
+            self.presenter.forget_masks()
+
+    def _hovered(self, x: float, y: float) -> None:
+        if self._session.snap:
+            self._canvas.ghost = self._snap((x, y))
+        elif self._canvas.ghost is not None:
+            self._canvas.ghost = None
+        if self._canvas.loupe.on:
+            self._feed_loupe()
+
+    def _place_in(self, frame: int) -> tuple[float, float] | None:
+        track = self._session.track
+        if track is None or frame < 0:
+            return None
+        cells = self._session.annotation.cells(track, np.array([frame]))
+        return (float(cells.xy[0, 0]), float(cells.xy[0, 1])) if cells.state[0] != NONE else None
+
+    def _key_before(self) -> int | None:
+        """The frame of the last key before the one on show, else the next after it."""
+        track = self._session.track
+        if track is None:
+            return None
+        keys = self._session.annotation.keys(track)
+        before, after = keys[keys < self.painted], keys[keys > self.painted]
+        return int(before[-1]) if len(before) else int(after[0]) if len(after) else None
+
+    def _snap(self, xy: tuple[float, float]) -> tuple[float, float] | None:
+        """The best likeness of the point as it looks in the key before, near the mouse."""
+        key, frame = self._key_before(), self._session.cache.get(self.painted)
+        there = self._place_in(key) if key is not None else None
+        source = self._session.cache.get(key) if key is not None else None
+        if there is None or source is None or frame is None:
+            return None
+        return snapped(source, there, frame, xy)
+
+    def _feed_loupe(self) -> None:
+        frame, mouse = self._session.cache.get(self.painted), self._canvas.mouse_raster()
+        here = self._canvas.dragged_to() or mouse or self.place()
+        sources: dict[str, Source] = {}
+        if frame is not None and here is not None:
+            sources["now"] = Source(frame, here)
+        key = self._key_before()
+        for name, at in (("key", key), ("first", self._first_frame())):
+            there = self._place_in(at) if at is not None else None
+            picture = self._session.cache.get(at) if at is not None else None
+            if picture is not None and there is not None:
+                sources[name] = Source(picture, there)
+        self._canvas.loupe.sources = sources
+
+    def _first_frame(self) -> int | None:
+        track = self._session.track
+        if track is None:
+            return None
+        known = np.flatnonzero(self._session.annotation.track(track).state == 1)
+        return int(known[0]) if len(known) else None
+
+    def _pin(self) -> None:
+        """Frames that the loupe and the strip need."""
+        wanted = [f for f in (self._key_before(), self._first_frame()) if f is not None]
+        if self._strip.isVisible():
+            wanted += self._strip.frames()
+        self._session.cache.pin(wanted)

@@ -1,0 +1,99 @@
+"""The four steps of annotating a clip, as data: what each is for, its buttons, its page, and when it is done.
+
+The paper names four steps without listing them; a better reading of it changes this file and nothing else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from genmojo_core.tracks.annotation import CONFIRMED, KEY, Annotation
+from genmojo_core.tracks.model import NONE
+from genmojo_studio.translate import tr
+
+Gate = Callable[[Annotation, int, int], str]
+
+
+@dataclass(frozen=True)
+class Step:
+    """A step: title, what to do in a sentence, action ids of its buttons in groups, its page of the information panel.
+
+    `missing(annotation, points, stride)` says what is still to be done in a sentence, "" when the step is done.
+    """
+
+    name: str
+    title: str
+    task: str
+    buttons: tuple[tuple[str, tuple[str, ...]], ...]
+    page: str
+    missing: Gate
+
+
+def _objects_missing(annotation: Annotation, points: int, stride: int) -> str:
+    chosen = annotation.chosen_objects()
+    if not chosen:
+        return tr("Choose at least one object.")
+    if any(not o.name.strip() for o in chosen):
+        return tr("Give every chosen object a name.")
+    unjudged = [o for o in annotation.objects.values() if o.status == "candidate"]
+    if unjudged:
+        return tr("{n} candidates are neither chosen nor rejected.").format(n=len(unjudged))
+    return ""
+
+
+def _points_missing(annotation: Annotation, points: int, stride: int) -> str:
+    lacking = sum(max(0, points - len(annotation.tracks_of(o.id))) for o in annotation.chosen_objects())
+    if lacking or not annotation.tracks:
+        return tr("{n} points are still to be placed.").format(n=lacking or points)
+    blank = sum(bool((annotation.track(t).state == NONE).any()) for t in annotation.tracks)
+    return tr("{n} tracks are not seeded.").format(n=blank) if blank else ""
+
+
+def _refine_missing(annotation: Annotation, points: int, stride: int) -> str:
+    returned = [i for i in annotation.tracks.values() if i.review == "needs_fix"]
+    if returned:
+        return tr("{n} tracks came back from the review.").format(n=len(returned))
+    frames = np.arange(0, annotation.frames, stride)
+    open_frames = 0
+    for track, info in annotation.tracks.items():
+        if not info.locked:
+            open_frames += int(((annotation.track(track).flags[frames] & (KEY | CONFIRMED)) == 0).sum())
+    return tr("{n} points in frames of the stride are not accepted.").format(n=open_frames) if open_frames else ""
+
+
+def _review_missing(annotation: Annotation, points: int, stride: int) -> str:
+    left = [i for i in annotation.tracks.values() if i.review not in ("approved", "rejected")]
+    if left or not annotation.tracks:
+        return tr("{n} tracks wait for a decision.").format(n=len(left))
+    return ""
+
+
+def _ids(*names: str) -> tuple[str, ...]:
+    return tuple(f"annotate.{name}" for name in names)
+
+
+_STATES = ("States", _ids("point.visible", "point.occluded", "point.outside", "point.uncertain"))
+_LOOK = ("Look", _ids("view.fit", "view.one", "view.follow", "view.loupe_stay", "view.masks", "view.trails",
+                      "view.strip"))  # fmt: skip
+
+STEPS = (
+    Step("objects", "Objects", "Choose the moving objects to annotate, and say why the others are left out.",
+         (("Masks", _ids("view.masks", "view.fit", "view.one")), ("History", _ids("edit.undo", "edit.redo"))),
+         "objects", _objects_missing),
+    Step("points", "Points and seed", "Place the key points of every object on its first frame, then seed the tracks.",
+         (("Place", _ids("point.snap", "point.key", "point.delete_key", "track.delete")),
+          ("Seed", _ids("track.seed", "file.import")), _LOOK, ("History", _ids("edit.undo", "edit.redo"))),
+         "points", _points_missing),
+    Step("refine", "Refine", "Step through the clip with Enter; put right what is wrong; N goes to the next doubt.",
+         (("Step", _ids("move.accept", "move.worst", "move.bisect")), _STATES,
+          ("Point", _ids("point.key", "point.snap", "point.delete_key")),
+          ("Track", _ids("track.solve", "track.on", "track.back", "track.mode", "track.seed", "track.lock")), _LOOK,
+          ("Review", _ids("review.fixed")), ("History", _ids("edit.undo", "edit.redo"))), "refine", _refine_missing),
+    Step("review", "Review", "Watch every track; approve it, or return it with a reason.",
+         (("Decide", _ids("review.approve", "review.fix", "move.worst", "move.loop")),
+          ("Together", _ids("review.merge", "review.log", "file.export")), _LOOK,
+          ("History", _ids("edit.undo", "edit.redo", "edit.checkpoint"))), "review", _review_missing),
+)  # fmt: skip

@@ -1,0 +1,259 @@
+"""The annotator's window part: four panels as movable docks, four steps, one clip at a time."""
+
+from __future__ import annotations
+
+import getpass
+from pathlib import Path
+
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtGui import QCloseEvent
+from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QStackedWidget, QToolBar, QVBoxLayout, QWidget
+
+from genmojo_core.errors import GenmojoError
+from genmojo_studio import notify, theme
+from genmojo_studio.actions import ActionTable
+from genmojo_studio.annotate.bindings import Hands, bind, position_text
+from genmojo_studio.annotate.button_panel import ButtonPanel, StepBar
+from genmojo_studio.annotate.canvas import Canvas, Tool
+from genmojo_studio.annotate.held import HeldKeys
+from genmojo_studio.annotate.objects_page import ObjectsPage
+from genmojo_studio.annotate.play_panel import PlayPanel
+from genmojo_studio.annotate.points_page import PointsPage
+from genmojo_studio.annotate.refine_page import RefinePage
+from genmojo_studio.annotate.review_page import ReviewPage
+from genmojo_studio.annotate.screen import Screen
+from genmojo_studio.annotate.session import Session, open_session
+from genmojo_studio.annotate.steps import STEPS
+from genmojo_studio.annotate.strip import Strip
+from genmojo_studio.annotate.trackability import measure
+from genmojo_studio.annotate.work import Work
+from genmojo_studio.settings import Settings
+from genmojo_studio.state import AppState
+from genmojo_studio.translate import tr
+
+_DOCKS = (("buttons", "Buttons", Qt.DockWidgetArea.LeftDockWidgetArea),
+          ("information", "Information", Qt.DockWidgetArea.RightDockWidgetArea),
+          ("play", "Video play", Qt.DockWidgetArea.BottomDockWidgetArea))  # fmt: skip
+
+
+class AnnotateWorkspace(QMainWindow):
+    """Visualisation in the middle; buttons, information and video play around it.
+
+    Attributes that hold the clip's parts (`session`, `canvas`, `pages`, ...) exist once a clip is open.
+    """
+
+    def __init__(self, state: AppState, actions: ActionTable, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowFlags(Qt.WindowType.Widget)
+        self.state, self.actions = state, actions
+        self.settings = Settings()
+        self.session: Session | None = None
+        self.hands: Hands | None = None
+        self.step = 0
+        self.setDockNestingEnabled(True)
+        self.bar = StepBar()
+        self._tool_bar = QToolBar(tr("Steps"))
+        self._tool_bar.setObjectName("steps")
+        self._tool_bar.setMovable(False)
+        self._tool_bar.addWidget(self.bar)
+        self.addToolBar(self._tool_bar)
+        self.docks: dict[str, QDockWidget] = {}
+        for name, title, area in _DOCKS:
+            dock = QDockWidget(tr(title), self)
+            dock.setObjectName(f"annotate-{name}")
+            self.addDockWidget(area, dock)
+            self.docks[name] = dock
+        self.setCorner(Qt.Corner.BottomRightCorner, Qt.DockWidgetArea.RightDockWidgetArea)
+        self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.BottomDockWidgetArea)
+        self.setCentralWidget(_hint(tr("Open a clip to annotate it (Ctrl+O).")))
+        self.held = HeldKeys(self, actions)
+        self._steps_later = QTimer(self, singleShot=True, interval=150)
+        self._steps_later.timeout.connect(self._show_steps)
+        self.bar.chosen.connect(self.show_step)
+        self.bar.setEnabled(False)
+
+    # ---- opening and closing
+
+    def open_clip(self, path: str | Path) -> None:
+        """Open a clip or a project file; the one open now is closed, with everything stored. Faults are told."""
+        path = Path(path)
+        try:
+            session = open_session(self.state, path, self.settings.text("person") or _person())
+        except GenmojoError as error:
+            notify.tell(error, self)
+            return
+        self.close_clip()
+        self.open_with(session)
+
+    def open_with(self, session: Session) -> None:
+        """Put a session on show."""
+        self.session = session
+        session.setParent(self)
+        self.canvas, self.strip = Canvas(), Strip(session)
+        self.screen_link = Screen(session, self.canvas, self.strip)
+        self.work = Work(session, self)
+        self.buttons, self.play = ButtonPanel(self.actions), PlayPanel(session, self.actions)
+        self.pages = QStackedWidget()
+        self.objects, self.points = ObjectsPage(session), PointsPage(session)
+        self.refine, self.review = RefinePage(session), ReviewPage(session)
+        self._by_name = {"objects": self.objects, "points": self.points, "refine": self.refine, "review": self.review}
+        for page in self._by_name.values():
+            self.pages.addWidget(page)
+        middle = QWidget()
+        column = QVBoxLayout(middle)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self.canvas, 1)
+        column.addWidget(self.strip)
+        self.setCentralWidget(middle)
+        for name, widget in (("buttons", self.buttons), ("information", self.pages), ("play", self.play)):
+            self.docks[name].setWidget(widget)
+        self.pages.setMinimumWidth(300)
+        self.bar.setEnabled(True)
+        self.bar.stride.setValue(session.stride)
+        session.edited.connect(self._steps_later.start)
+        session.said.connect(self.say)
+        session.stored.connect(self._stored)
+        bind(self)
+        self.state.subscribe(self._theme_changed, "theme")
+        self._theme_changed()
+        self.show_step(self._first_open_step())
+        self.screen_link.show_frame(session.frame)
+        self.bar.saved.setText(tr("read only") if session.project.read_only else tr("saved"))
+        self.canvas.setFocus()
+
+    def close_clip(self) -> None:
+        """Store and let go of the clip that is open."""
+        session, self.session = self.session, None
+        if session is None:
+            return
+        self.play.player.stop()
+        self.work.close()
+        session.close()
+        session.deleteLater()
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Nothing is asked: everything is stored already."""
+        self.close_clip()
+        event.accept()
+
+    # ---- steps and layout
+
+    def show_step(self, place: int) -> None:
+        """Bring a step's buttons, page and layout to the front."""
+        if self.session is None or not 0 <= place < len(STEPS):
+            return
+        if place != self.step:
+            self.save_layout()
+        self.step = place
+        step = STEPS[place]
+        self.buttons.show_step(step)
+        self.pages.setCurrentWidget(self._by_name[step.page])
+        self.docks["information"].setWindowTitle(f"{tr('Information')}: {tr(step.title)}")
+        self.strip.setVisible(step.name in ("refine", "review"))
+        if step.name != "objects":
+            self.objects.show_tool(None)
+            self.work.use_tool(None)
+        self.restore_layout()
+        self._show_steps()
+        self.canvas.setFocus()
+
+    def save_layout(self) -> None:
+        """Remember where the panels are in this step."""
+        self.settings.put_layout(f"annotate-{STEPS[self.step].name}", self.saveState())
+
+    def restore_layout(self) -> None:
+        """Put the panels where they were in this step, or where they belong."""
+        stored = self.settings.layout(f"annotate-{STEPS[self.step].name}")
+        if stored is not None and self.restoreState(stored):
+            return
+        for name, _title, area in _DOCKS:
+            self.docks[name].setFloating(False)
+            self.addDockWidget(area, self.docks[name])
+            self.docks[name].show()
+        wide, high = max(self.width(), 1000), max(self.height(), 600)
+        sizes = {"buttons": 178, "information": int(min(max(0.24 * wide, 310), 430))}
+        self.resizeDocks([self.docks[n] for n in sizes], list(sizes.values()), Qt.Orientation.Horizontal)
+        self.resizeDocks([self.docks["play"]], [int(0.27 * high)], Qt.Orientation.Vertical)
+
+    def use_tool(self, tool: Tool | None) -> None:
+        """Draw with a tool on the canvas, or go back to points."""
+        self.canvas.set_tool(tool or Tool.POINT)
+
+    def set_stride(self, stride: int) -> None:
+        """Frames that Enter, comma and full stop move by."""
+        if self.session is not None:
+            self.session.stride = stride
+            self.play.sheet.refresh()
+            self._steps_later.start()
+
+    def show_position(self, x: float, y: float) -> None:
+        """Coordinates of the mouse, and in step 2 how well that place can be followed."""
+        session = self.session
+        if session is None:
+            return
+        self.bar.position.setText(position_text(x, y, session.annotation.size))
+        frame = session.cache.get(session.frame)
+        if STEPS[self.step].name != "points" or frame is None or self.canvas.mouse_raster() is None:
+            return
+        view = session.annotation.at(session.frame)
+        others = view.xy[view.ids != (session.track or -1)]
+        self.points.show_meter(measure(frame, (x, y), session.mask_at(session.frame), session.active[0], others))
+
+    def next_panel(self) -> None:
+        """Move the keyboard on: frame, buttons, information, dope sheet, and around."""
+        stops: list[QWidget] = [self.canvas, self.buttons, self.pages.currentWidget(), self.play.sheet]
+        focus = self.focusWidget()
+        inside = (n for n, w in enumerate(stops) if focus is not None and (w is focus or w.isAncestorOf(focus)))
+        at = next(inside, -1)
+        target = stops[(at + 1) % len(stops)]
+        if target.focusPolicy() == Qt.FocusPolicy.NoFocus or target in (self.buttons, self.pages.currentWidget()):
+            target = next((c for c in target.findChildren(QWidget) if c.isVisible() and c.isEnabled()
+                           and c.focusPolicy() & Qt.FocusPolicy.TabFocus), target)  # fmt: skip
+        target.setFocus(Qt.FocusReason.ShortcutFocusReason)
+
+    def start_tour(self) -> None:
+        """Explain the annotator on a clip made on the spot."""
+
+    def say(self, sentence: str) -> None:
+        """A sentence in the status line of the window."""
+        window = self.window()
+        if isinstance(window, QMainWindow):
+            window.statusBar().showMessage(sentence, 8000)
+
+    def _show_steps(self) -> None:
+        if self.session is None:
+            return
+        session = self.session
+        missing = [s.missing(session.annotation, session.limit("points"), session.stride) for s in STEPS]
+        self.bar.show_step(self.step, missing)
+
+    def _first_open_step(self) -> int:
+        """The step that a clip is in: the first that lacks something."""
+        if self.session is None:
+            return 0
+        session = self.session
+        lacking = (bool(s.missing(session.annotation, session.limit("points"), session.stride)) for s in STEPS)
+        return next((n for n, lacks in enumerate(lacking) if lacks), len(STEPS) - 1)
+
+    def _stored(self, seconds: float) -> None:
+        self.bar.saved.setText(tr("saved in {ms:.0f} ms").format(ms=1000 * seconds))
+
+    def _theme_changed(self) -> None:
+        if self.session is not None:
+            self.canvas.set_background(theme.colours(self.state.theme).canvas)
+
+
+def _hint(text: str) -> QLabel:
+    label = QLabel(text)
+    label.setAlignment(Qt.AlignmentFlag.AlignCenter)
+    label.setProperty("role", "dim")
+    return label
+
+
+def _person() -> str:
+    """The name of the account, until a person gives another."""
+    try:
+        return getpass.getuser()
+    except (OSError, KeyError):
+        return ""
