@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from genmojo_core.clip.cameras import View
+from genmojo_core.clip.cameras import Cameras, View
 from genmojo_core.conventions import axis_angle_matrix, orbit_camera
 from genmojo_core.errors import GenmojoError
 from genmojo_studio.view3d.snapshot import SceneSnapshot
@@ -161,6 +161,14 @@ def reference_of(snapshot: SceneSnapshot, t: float | None = None) -> Reference:
     if share > 0 and first + 1 < len(snapshot.cameras):
         view = view.with_pose(_between(view.world_to_camera, snapshot.cameras.view(first + 1).world_to_camera, share))
     return Reference(view, snapshot.orbit_target, up)
+
+
+def next_pose(cameras: Cameras | None, view: View, t: float) -> np.ndarray:  # (4, 4)
+    """A view's pose one frame later: the input camera's own motion applied to it."""
+    if cameras is None or int(t) + 1 >= len(cameras):
+        return view.world_to_camera
+    now, after = cameras.world_to_camera[int(t)], cameras.world_to_camera[int(t) + 1]
+    return view.world_to_camera @ np.linalg.inv(now) @ after
 
 
 def between(a: Orbit, b: Orbit, share: float, reference: Reference) -> Orbit:

@@ -7,7 +7,6 @@ widgets are in splat_view.py; here the only one is that the owner has made the c
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import moderngl
@@ -19,7 +18,9 @@ from genmojo_studio.view3d import shaders
 from genmojo_studio.view3d.colouring import palette_rgb, value_bounds
 from genmojo_studio.view3d.gl_pieces import bind, jacobian_limits, matrix, release_target, set_uniform, straight
 from genmojo_studio.view3d.look import Look, Mode, ObjectTable, object_table
+from genmojo_studio.view3d.orbit import next_pose
 from genmojo_studio.view3d.order import EXACT_UP_TO, Sorter, back_to_front
+from genmojo_studio.view3d.quality import FULL, Picture, Quality
 from genmojo_studio.view3d.scene_textures import TEXELS, SceneTextures, nearest, rows_of
 from genmojo_studio.view3d.snapshot import SceneSnapshot
 
@@ -34,31 +35,6 @@ _STYLE = {Mode.ELLIPSOIDS: 1, Mode.CENTRES: 2}
 _PREMULTIPLIED = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
 _BISECTIONS = 5  # each narrows the median depth to a fifth
 DOT_PIXELS = 1.6
-
-
-@dataclass(frozen=True)
-class Picture:
-    """What a view of splats sums up to.
-
-    Args:
-        sums: (H, W, 4) float32, row 0 at the top: premultiplied channels of the mode (RGB; depth; flow x, y; normal;
-            for objects: position in `object_ids`, share) and coverage.
-        order_is_exact: False where a large scene was drawn in an order of an earlier camera.
-    """
-
-    sums: np.ndarray
-    order_is_exact: bool = True
-
-
-@dataclass(frozen=True)
-class Quality:
-    """How much of a picture is drawn: every `stride`-th splat of a fixed shuffle, at `scale` of the resolution."""
-
-    stride: int = 1
-    scale: float = 1.0
-
-
-FULL = Quality()
 
 
 class SplatRenderer:
@@ -136,9 +112,8 @@ class SplatRenderer:
             view: camera and size in pixels; with `quality.scale` < 1 fewer pixels are drawn of the same picture.
             t: 0..T-1, between frames interpolated; without known frames always the snapshot's.
         """
-        scale = quality.scale
-        if scale != 1.0:
-            view = view.resized(max(1, round(view.width * scale)), max(1, round(view.height * scale)))
+        if quality.scale != 1.0:
+            view = view.resized(*quality.size(view.width, view.height))
         target = self._target("sums", (view.width, view.height))
         self.ctx.enable_only(moderngl.BLEND)
         self.ctx.blend_func = _PREMULTIPLIED
@@ -222,7 +197,7 @@ class SplatRenderer:
             scene.write_next(after, scene.positions(after))
         p = self._project
         set_uniform(p, "camera", matrix(view.world_to_camera))
-        set_uniform(p, "next_camera", matrix(self._next_camera(scene, view, t)))
+        set_uniform(p, "next_camera", matrix(next_pose(scene.snapshot.cameras, view, t)))
         set_uniform(p, "lens", (view.fx, view.fy, view.cx, view.cy))
         set_uniform(p, "limits", jacobian_limits(view))
         set_uniform(p, "range", (view.near, view.far, view.dilation))
@@ -265,14 +240,6 @@ class SplatRenderer:
             ready = (key, rows[back_to_front(depth)].astype(np.uint32))
         self._drawn_order = ready
         return ready[1]
-
-    def _next_camera(self, scene: SceneTextures, view: View, t: float) -> np.ndarray:
-        """The view's pose one frame later: the input camera's own motion applied to it."""
-        cameras = scene.snapshot.cameras
-        if cameras is None or int(t) + 1 >= len(cameras):
-            return view.world_to_camera
-        now, after = cameras.world_to_camera[int(t)], cameras.world_to_camera[int(t) + 1]
-        return view.world_to_camera @ np.linalg.inv(now) @ after
 
     def _project_all(self, scene: SceneTextures, value: int, count: int) -> None:
         """PROJECT: fill the work buffer's first `count` texels."""

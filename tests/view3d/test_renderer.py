@@ -15,7 +15,8 @@ from genmojo_core.errors import GenmojoError
 from genmojo_core.render.cpu.rasterize import rasterize
 from genmojo_core.render.rasterizer import Splats
 from genmojo_studio.view3d.look import Look, Mode, ObjectLook
-from genmojo_studio.view3d.renderer import Quality, SplatRenderer
+from genmojo_studio.view3d.quality import Quality
+from genmojo_studio.view3d.renderer import SplatRenderer
 from genmojo_studio.view3d.snapshot import SceneSnapshot
 from tests.view3d.scenes_gl import a_view, decibels, egl_context, random_snapshot, truth
 
