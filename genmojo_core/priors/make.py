@@ -1,0 +1,80 @@
+"""From nothing to a weight file: both trainings, the table, the description."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import torch
+
+from genmojo_core import __version__
+from genmojo_core.errors import GenmojoError
+from genmojo_core.priors import generator, weights
+from genmojo_core.priors.denoiser import LOG_SIGMA, Denoiser
+from genmojo_core.priors.embedded import EmbeddedPrior
+from genmojo_core.priors.held_out import table
+from genmojo_core.priors.tasks import DenoiserTask, VolumeTask
+from genmojo_core.priors.test_set import recorded
+from genmojo_core.priors.training import Progress, TrainingPlan, train
+from genmojo_core.priors.volume import VolumeNet
+
+
+@dataclass(frozen=True)
+class Times:
+    """CPU seconds for the volume and the denoiser, objects per step, seed, device."""
+
+    volume: float
+    denoiser: float
+    objects: int = 8
+    seed: int = 0
+    device: str = "cpu"
+
+
+def make_prior(folder: Path, times: Times, hear: Callable[[str, Progress], None]) -> Path:
+    """Train in `folder`, or go on there; returns the path of the weight file.
+
+    Raises GenmojoError("io") where the folder cannot be written, "schema" for a state of other networks.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise GenmojoError("io", f"cannot be made ({error.strerror})", str(folder), "choose another folder") from error
+    torch.manual_seed(times.seed)
+    volume, denoiser = VolumeNet(), Denoiser()
+    steps: dict[str, int] = {"volume": 0, "denoiser": 0}
+
+    def report(part: str) -> Callable[[Progress], bool]:
+        def tell(progress: Progress) -> bool:
+            steps[part] = progress.step
+            hear(part, progress)
+            return True
+
+        return tell
+
+    for task, seconds in ((VolumeTask(volume), times.volume), (DenoiserTask(denoiser, volume), times.denoiser)):
+        plan = TrainingPlan(seconds, times.objects, seed=times.seed, device=times.device)
+        train(task, folder, plan, report(task.name))
+    prior = EmbeddedPrior(volume.cpu(), denoiser.cpu())
+    path = folder / weights.SHIPPED.name
+    weights.write(path, prior, description(prior, times, steps))
+    return path
+
+
+def description(prior: EmbeddedPrior, times: Times, steps: dict[str, int]) -> dict[str, Any]:
+    """What the file says about itself: origin, training, the table on the frozen test set."""
+    return {
+        "program": f"genmojo {__version__}", "licence": "as the program's",
+        "data": "procedural objects of this program only; no third-party image, mesh or weight",
+        "generator": generator.VERSION, "test_set": recorded()["sha256"], "seed": times.seed,
+        "objects_seen": {part: count * times.objects for part, count in steps.items()},
+        "seconds": {"volume": times.volume, "denoiser": times.denoiser},
+        "sigma": [2.718281828**level for level in LOG_SIGMA],
+        "held_out": {name: {k: round(v, 3) for k, v in row.items()} for name, row in table(prior.volume).items()},
+    }  # fmt: skip
+
+
+def described(path: Path) -> dict[str, Any]:
+    """The description of a weight file."""
+    return weights.describe(path)
