@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QRect, QSize, Qt, Signal
+from PySide6.QtGui import QKeySequence, QPaintEvent, QPalette
 from PySide6.QtWidgets import (
     QButtonGroup,
     QFrame,
@@ -12,13 +13,16 @@ from PySide6.QtWidgets import (
     QScrollArea,
     QSizePolicy,
     QSpinBox,
+    QStyle,
+    QStyleOptionToolButton,
+    QStylePainter,
     QToolButton,
     QVBoxLayout,
     QWidget,
 )
 
 from genmojo_studio.actions import ActionTable
-from genmojo_studio.annotate.steps import STEPS, Step
+from genmojo_studio.annotate.steps import SHORT, STEPS, Step
 from genmojo_studio.translate import tr
 
 
@@ -28,7 +32,7 @@ class ButtonPanel(QScrollArea):
     def __init__(self, actions: ActionTable, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._actions = actions
-        self._buttons: dict[str, QToolButton] = {}
+        self._buttons: dict[str, KeyButton] = {}
         self._step: Step | None = None
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
@@ -70,13 +74,15 @@ class ButtonPanel(QScrollArea):
         for name, button in self._buttons.items():
             action = self._actions[name]
             key = next(iter(self._actions.keys(name)), "")
-            button.setText(f"{tr(action.text).rstrip('…')}  {key}" if key else tr(action.text))
-            button.setToolTip(tr(action.help))
+            short = tr(SHORT.get(name.removeprefix("annotate."), action.text))
+            button.setText(short)
+            button.setKey(QKeySequence(key).toString(QKeySequence.SequenceFormat.NativeText))
+            button.setToolTip(f"{tr(action.text)}. {tr(action.help)}")
             button.setEnabled(self._actions.is_enabled(name))
             button.setChecked(self._actions.is_checked(name))
 
-    def _button(self, name: str) -> QToolButton:
-        button = QToolButton()
+    def _button(self, name: str) -> KeyButton:
+        button = KeyButton()
         button.setCheckable(self._actions[name].checkable)
         button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         button.setObjectName(name)
@@ -89,6 +95,46 @@ class ButtonPanel(QScrollArea):
         if isinstance(sender, QToolButton):
             self._actions.trigger(sender.objectName())
             self.refresh()
+
+
+class KeyButton(QToolButton):
+    """A button with its text at the left and its key, dimmed, at the right."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._key = ""
+
+    def setKey(self, key: str) -> None:
+        """The key that does the same."""
+        self._key = key
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        """Room for text and key."""
+        wide = self.fontMetrics().horizontalAdvance(self.text() + self._key) + 34
+        return QSize(wide, super().sizeHint().height())
+
+    def minimumSizeHint(self) -> QSize:
+        """The text may be cut short, the key not."""
+        return QSize(60, self.sizeHint().height())
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """The frame of a tool button, then the two texts."""
+        painter = QStylePainter(self)
+        option = QStyleOptionToolButton()
+        self.initStyleOption(option)
+        option.text = ""
+        painter.drawComplexControl(QStyle.ComplexControl.CC_ToolButton, option)
+        area = QRect(self.rect()).adjusted(9, 0, -9, 0)
+        role = QPalette.ColorRole.HighlightedText if self.isChecked() else QPalette.ColorRole.ButtonText
+        group = QPalette.ColorGroup.Normal if self.isEnabled() else QPalette.ColorGroup.Disabled
+        room = area.width() - self.fontMetrics().horizontalAdvance(self._key) - 8
+        text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, room)
+        painter.setPen(self.palette().color(group, role))
+        painter.drawText(area, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
+        painter.setOpacity(0.6)
+        painter.drawText(area, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, self._key)
+        painter.end()
 
 
 class StepBar(QWidget):

@@ -106,7 +106,7 @@ class Canvas(QWidget):
         self.reticle = min(max(size, 6), 60)
         self.update()
 
-    def set_overlay(self, on: bool) -> None:  # noqa: FBT001
+    def set_overlay(self, on: bool) -> None:
         """Show what is drawn over the frame, or the bare frame."""
         self.show_overlay = on
         self.update()

@@ -48,7 +48,7 @@ class Dialogs:
         if s.track is None or not others:
             return
         titles = [s.title(i.object, i.number) for i in others]
-        title, chosen = QInputDialog.getItem(self._w, tr("Swap"), tr("From this frame on, swap with"), titles, 0, False)  # noqa: FBT003
+        title, chosen = QInputDialog.getItem(self._w, tr("Swap"), tr("From this frame on, swap with"), titles, 0, False)
         if chosen:
             one, other = s.track, others[titles.index(title)].id
             last = s.annotation.frames - 1
@@ -68,7 +68,7 @@ class Dialogs:
             self._s.said.emit(tr("No moment has a name yet (Ctrl+S)."))
             return
         titles = [f"{row.title}   {row.at[:16]}" for row in rows[::-1]]
-        title, chosen = QInputDialog.getItem(self._w, tr("Named moments"), tr("Go back to"), titles, 0, False)  # noqa: FBT003
+        title, chosen = QInputDialog.getItem(self._w, tr("Named moments"), tr("Go back to"), titles, 0, False)
         if chosen:
             row = rows[::-1][titles.index(title)]
             step = self._s.project.go_to(row.parent)

@@ -201,7 +201,7 @@ def _trails(painter: QPainter, picture: Picture, mapping: Mapping) -> None:
             colour.setAlpha(alpha)
             for choice, style in ((both, Qt.PenStyle.SolidLine), (linked & ~both, Qt.PenStyle.DashLine)):
                 if choice.any():
-                    connect = np.append(choice, False)  # noqa: FBT003
+                    connect = np.append(choice, False)
                     painter.setPen(QPen(colour, width, style))
                     painter.drawPath(pg.functions.arrayToQPath(x[first:end], y[first:end], connect, finiteCheck=False))
 

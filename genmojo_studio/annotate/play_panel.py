@@ -12,11 +12,13 @@ from genmojo_studio.actions import ActionTable
 from genmojo_studio.annotate.dope_sheet import DopeSheet
 from genmojo_studio.annotate.graphs import Graphs
 from genmojo_studio.annotate.session import Session
+from genmojo_studio.icons import icon
 from genmojo_studio.translate import tr
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0)
-_TRANSPORT = (("move.first", "⏮"), ("move.stride_previous", "⏪"), ("move.previous", "◀"), ("move.play", "▶"),
-              ("move.next", "▶❘"), ("move.stride_next", "⏩"), ("move.last", "⏭"))  # fmt: skip
+_TRANSPORT = (("move.first", "first"), ("move.stride_previous", "stride-previous"), ("move.previous", "previous"),
+              ("move.play", "play"), ("move.next", "next"), ("move.stride_next", "stride-next"),
+              ("move.last", "last"))  # fmt: skip
 
 
 class Player(QObject):
@@ -98,6 +100,8 @@ class PlayPanel(QWidget):
         column.addWidget(self.tabs, 1)
         session.frame_changed.connect(self._show_frame)
         self.player.toggled.connect(self._show_playing)
+        session.state.subscribe(self._dress, "theme")
+        self._dress()
         self._show_frame(session.frame)
 
     def brush_state(self) -> int:
@@ -108,9 +112,9 @@ class PlayPanel(QWidget):
         row = QHBoxLayout()
         row.setSpacing(3)
         self.buttons: dict[str, QToolButton] = {}
-        for name, glyph in _TRANSPORT:
+        for name, _ in _TRANSPORT:
             action = self._actions[f"annotate.{name}"]
-            button = QToolButton(text=glyph, toolTip=f"{tr(action.text)} ({', '.join(self._actions.keys(action.id))})")
+            button = QToolButton(toolTip=f"{tr(action.text)} ({', '.join(self._actions.keys(action.id))})")
             button.setAccessibleName(tr(action.text))
             button.setObjectName(action.id)
             button.setAutoRepeat(action.repeats)
@@ -155,5 +159,11 @@ class PlayPanel(QWidget):
         seconds = self._session.cache.seconds[min(frame, len(self._session.cache.seconds) - 1)]
         self.position.setText(tr("frame {n} of {last}   {s:.2f} s").format(n=frame, last=last, s=seconds))
 
-    def _show_playing(self, playing: bool) -> None:  # noqa: FBT001
-        self.buttons["move.play"].setText("⏸" if playing else "▶")
+    def _show_playing(self, _playing: bool) -> None:
+        self._dress()
+
+    def _dress(self) -> None:
+        """Icons in the theme's colours."""
+        for name, picture in _TRANSPORT:
+            shown = "pause" if name == "move.play" and self.player.playing else picture
+            self.buttons[name].setIcon(icon(shown, self._session.state.theme))

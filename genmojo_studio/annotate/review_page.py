@@ -151,6 +151,6 @@ class ReviewPage(QWidget):
     def _named(self) -> None:
         self._session.project.person = self._who()
 
-    def _consent_clicked(self, on: bool) -> None:  # noqa: FBT001
+    def _consent_clicked(self, on: bool) -> None:
         self._session.do(set_meta(self._session.annotation, "consent", "yes" if on else None))
         self.consent.setCheckState(Qt.CheckState.Checked if on else Qt.CheckState.Unchecked)

@@ -41,7 +41,7 @@ class Screen(QObject):
         if self.painted >= 0:
             self._paint(self.painted)
 
-    def set_loupe(self, on: bool) -> None:  # noqa: FBT001
+    def set_loupe(self, on: bool) -> None:
         """Open or close the loupe."""
         self._canvas.loupe.on = on
         self._pin()
@@ -49,7 +49,7 @@ class Screen(QObject):
             self._feed_loupe()
         self._canvas.update()
 
-    def set_follow(self, on: bool) -> None:  # noqa: FBT001
+    def set_follow(self, on: bool) -> None:
         """Keep the active point in the middle."""
         self.follow = on
         if not on:

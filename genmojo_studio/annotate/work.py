@@ -67,7 +67,7 @@ class Work(QObject):
             self.prompts.append(hand_masks.box_prompt(self._session.frame, (x0, y0, x1, y1)))
             self.cut()
 
-    def add_stroke(self, points: np.ndarray, on: bool) -> None:  # noqa: FBT001
+    def add_stroke(self, points: np.ndarray, on: bool) -> None:
         """A stroke or a click in the frame on show; `cut` uses it."""
         self.prompts.append(hand_masks.stroke_prompt(self._session.frame, points, on=on))
         self._session.said.emit(tr("{n} strokes; press Cut out.").format(n=len(self.prompts)))

@@ -171,6 +171,9 @@ class AnnotateWorkspace(QMainWindow):
             self.docks[name].setFloating(False)
             self.addDockWidget(area, self.docks[name])
             self.docks[name].show()
+        QTimer.singleShot(0, self._size_docks)  # sizes count only after the docks have been laid out
+
+    def _size_docks(self) -> None:
         wide, high = max(self.width(), 1000), max(self.height(), 600)
         sizes = {"buttons": 178, "information": int(min(max(0.24 * wide, 310), 430))}
         self.resizeDocks([self.docks[n] for n in sizes], list(sizes.values()), Qt.Orientation.Horizontal)
