@@ -141,6 +141,40 @@ class SceneSnapshot:
         return replace(self, frame=t, positions=found.means, rotations=found.quats, scales=found.scales,
                        opacities=found.opacities, colours=found.rgb)  # fmt: skip
 
+    @cached_property
+    def canonical(self) -> SceneSnapshot:
+        """Every object in the shape it was reconstructed in, at the frame it was reconstructed from, without motion.
+
+        This snapshot itself where its source does not tell (a live preview).
+        """
+        if not isinstance(self.frames, BakedScene):
+            return self
+        scene = self.frames
+        still = replace(
+            scene, d_xyz=np.zeros((1, *scene.xyz.shape), np.float32), rot_t=scene.rot[None], d_dc=None,
+            log_scale_t=np.zeros((1, *scene.scale.shape), np.float32),
+            object_to_world=scene.object_to_world[scene.ref_frame, np.arange(len(scene.objects))][None],
+        )  # fmt: skip
+        found = still.frame(0)
+        return replace(self, frames=None, positions=found.means, rotations=found.quats, scales=found.scales,
+                       opacities=found.opacities, colours=found.rgb)  # fmt: skip
+
+    def trajectory(self, row: int) -> dict[str, np.ndarray]:
+        """One Gaussian over all known frames: positions (T, 3), rotations (T, 4), scales (T, 3), colours (T, 3).
+
+        T = 1 where other frames are not known. Raises GenmojoError("argument") for a row that is not there.
+        """
+        if not 0 <= row < len(self):
+            raise GenmojoError("argument", f"there is no Gaussian {row}", "snapshot")
+        source = self.frames
+        names = {"positions": "means", "rotations": "quats", "scales": "scales", "colours": "rgb"}
+        if source is None:
+            return {name: getattr(self, name)[row : row + 1] for name in names}
+        if isinstance(source, BakedScene):
+            source, row = _alone(source, row), 0
+        frames = [source.frame(t) for t in range(len(source))]
+        return {name: np.stack([getattr(f, key)[row] for f in frames]) for name, key in names.items()}
+
     @classmethod
     def from_baked(cls, scene: BakedScene, frame: int = 0, version: int = 0) -> SceneSnapshot:
         """A scene file's content at a frame; the target of views is the one `genmojo render` uses."""
@@ -158,3 +192,16 @@ class SceneSnapshot:
             target=orbit_target(scene) if len(scene.xyz) else None, supervised=scene.supervised, frames=scene,
             tracks=scene.predicted,
         )  # fmt: skip
+
+
+def _alone(scene: BakedScene, row: int) -> BakedScene:
+    """A scene of one Gaussian: its frames cost nothing."""
+    k = int(scene.object_index[row])
+    one = slice(row, row + 1)
+    return replace(
+        scene, objects=(replace(scene.objects[k], first=0, count=1),), xyz=scene.xyz[one], rot=scene.rot[one],
+        scale=scene.scale[one], opacity=scene.opacity[one], dc=scene.dc[one], uid=scene.uid[one],
+        d_xyz=scene.d_xyz[:, one], rot_t=scene.rot_t[:, one], log_scale_t=scene.log_scale_t[:, one],
+        object_to_world=scene.object_to_world[:, k : k + 1], depth_scale=scene.depth_scale[:, k : k + 1],
+        ref_frame=scene.ref_frame[k : k + 1], d_dc=None if scene.d_dc is None else scene.d_dc[:, one],
+    )  # fmt: skip
