@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from pathlib import Path
 
 from PySide6.QtCore import QByteArray, Qt
 from PySide6.QtGui import QIcon, QPainter, QPixmap
 from PySide6.QtSvg import QSvgRenderer
 
-from genmojo_studio.theme import colours
+from genmojo_studio.theme import ICONS, colours
 
-FOLDER = Path(__file__).resolve().parent.parent / "resources" / "icons"
 _SIZES = (16, 20, 32, 48)
 
 
@@ -19,7 +17,7 @@ _SIZES = (16, 20, 32, 48)
 def icon(name: str, theme: str) -> QIcon:
     """An icon by the name of its file, in every size that screens of one and two device pixels ask for."""
     table = colours(theme)
-    drawing = (FOLDER / f"{name}.svg").read_text(encoding="utf-8")
+    drawing = (ICONS / f"{name}.svg").read_text(encoding="utf-8")
     made = QIcon()
     for mode, colour in (
         (QIcon.Mode.Normal, table.text),

@@ -7,9 +7,13 @@ to that.
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from pathlib import Path
 
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QApplication
+
+
+ICONS = Path(__file__).resolve().parent.parent / "resources" / "icons"
 
 
 @dataclass(frozen=True)
@@ -123,6 +127,7 @@ def _style_sheet(table: Colours) -> str:
     sheet = _RULES
     for field in fields(Colours):
         sheet = sheet.replace(f"@{field.name}@", getattr(table, field.name))
+    sheet = sheet.replace("@icons@", ICONS.as_posix())
     return sheet.replace("@hover@", _mix(table.raised, table.text, 0.08)).replace(
         "@off@", _mix(table.dim, table.panel, 0.45)
     )
@@ -153,13 +158,20 @@ QToolButton:disabled, QPushButton:disabled { color: @off@; background: @panel@; 
 QToolButton[popupMode="1"] { padding-right: 18px; } QToolButton::menu-button { width: 16px; border: none; }
 QToolButton[popupMode="2"] { padding-right: 18px; }
 QToolButton::menu-indicator { subcontrol-position: right center; right: 5px; }
-QLineEdit, QSpinBox, QDoubleSpinBox, QComboBox, QPlainTextEdit, QTextEdit, QTextBrowser {
+QLineEdit, QPlainTextEdit, QTextEdit, QTextBrowser {
   background: @field@; border: 1px solid @line@; border-radius: 4px; padding: 3px 5px; }
-QLineEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus, QComboBox:focus { border: 1px solid @accent@; }
+QLineEdit:focus { border: 1px solid @accent@; }
+QAbstractSpinBox QLineEdit { border: none; padding: 0; background: transparent; }
 QComboBox QAbstractItemView { background: @panel@; border: 1px solid @line@; }
+QCheckBox::indicator, QAbstractItemView::indicator { width: 13px; height: 13px; border: 1px solid @dim@;
+  border-radius: 3px; background: @field@; }
+QCheckBox::indicator:checked, QAbstractItemView::indicator:checked { background: @accent@; border: 1px solid @accent@;
+  image: url("@icons@/check.svg"); }
+QCheckBox::indicator:focus { border: 1px solid @accent@; }
 QAbstractItemView { background: @field@; border: 1px solid @line@; selection-background-color: @accent@;
   selection-color: @on_accent@; alternate-background-color: @panel@; }
 QHeaderView::section { background: @raised@; border: none; padding: 4px 6px; color: @text@; }
+QTabBar { qproperty-drawBase: 0; }
 QTabBar::tab { background: @window@; color: @dim@; padding: 6px 12px; border: none; }
 QTabBar::tab:selected { background: @panel@; color: @text@; border-bottom: 2px solid @accent@; }
 QTabBar::tab:hover { color: @text@; } QTabWidget::pane { border: none; }

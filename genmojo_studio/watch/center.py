@@ -119,6 +119,7 @@ class Center(QWidget):
         for pane in (self.input_picture, self.view, self.joined_picture):
             self.splitter.addWidget(pane)
         self.splitter.setChildrenCollapsible(False)
+        self.splitter.setSizes([1000, 1000, 1000])
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)

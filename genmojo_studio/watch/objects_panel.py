@@ -10,6 +10,7 @@ from PySide6.QtGui import QColor, QIcon, QPixmap
 from PySide6.QtWidgets import (
     QColorDialog,
     QHBoxLayout,
+    QHeaderView,
     QLabel,
     QPushButton,
     QSlider,
@@ -45,8 +46,11 @@ class ObjectsPanel(QWidget):
         self.list.setRootIsDecorated(False)
         self.list.setUniformRowHeights(True)
         self.list.setMinimumHeight(110)
-        self.list.setColumnWidth(_NAME, 150)
-        self.list.setColumnWidth(_COUNT, 80)
+        header = self.list.header()
+        header.setStretchLastSection(False)
+        header.setSectionResizeMode(_NAME, QHeaderView.ResizeMode.Stretch)
+        for column in (_COUNT, _PSNR):
+            header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
         self.explode = QSlider(Qt.Orientation.Horizontal)
         self.explode.setRange(0, 200)
         self.explode.setToolTip(tr("Moves the objects apart"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -73,6 +73,18 @@ class RunLog:
         elif kind in ("Finished", "Failed"):
             self._close_stage(at)
             self.outcome = str(event.get("reason") or event.get("message") or "")
+
+    @classmethod
+    def of_scene(cls, curve: Iterable[Mapping[str, float]]) -> RunLog:
+        """The log of a scene file: only its accuracy-against-time curve is kept there."""
+        log = cls()
+        for row in curve:
+            log.accuracy.append((float(row["seconds"]), int(row["step"]), float(row["psnr_held_out"])))
+            log.seconds.append(float(row["seconds"]))
+            log.step.append(int(row["step"]))
+            log.gaussians.append(int(row.get("gaussians", 0)))
+            log.step_ms.append(math.nan)
+        return log
 
     def add_memory(self, megabytes: float) -> None:
         """The worker's memory as its heartbeat told it, at the time of the newest step."""

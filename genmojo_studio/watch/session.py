@@ -95,10 +95,17 @@ def _read_scene(path: Path, open_clip: Path | None) -> tuple[BakedScene, Clip | 
     from genmojo_core.store import scene_hdf5
 
     scene = scene_hdf5.read(path)
-    source = str(scene.config.get("input", ""))
-    if not source or not Path(source).exists() or open_clip == Path(source):
+    source = _clip_of(scene, path)
+    if source is None or source == open_clip:
         return scene, None, None
-    return scene, folders.read(source, short_side=540), Path(source)
+    return scene, folders.read(source, short_side=540), source
+
+
+def _clip_of(scene: BakedScene, path: Path) -> Path | None:
+    """Where the scene's clip lies: as the file says, or by that name beside the file."""
+    said = str(scene.config.get("input", ""))
+    places = (Path(said), path.parent / said, path.parent / Path(said).name) if said else ()
+    return next((place.absolute() for place in places if place.exists()), None)
 
 
 def _read_ply(path: Path) -> BakedScene:

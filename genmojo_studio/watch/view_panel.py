@@ -1,9 +1,10 @@
-"""The view by numbers: elevation, azimuth, roll, radius, field of view; directions; splat size; what the view rests on."""
+"""The view by numbers: elevation, azimuth, roll, radius, field of view; directions; splat size; what was seen."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
@@ -105,7 +106,8 @@ class ViewPanel(QWidget):
         set_role(self.badge, role)
 
     def _typed(self, name: str, value: float) -> None:
-        self.orbit_wanted.emit(replace(self._orbit, **{name: value}))
+        changes: dict[str, Any] = {name: value}
+        self.orbit_wanted.emit(replace(self._orbit, **changes))
 
     def _paste(self) -> None:
         try:

@@ -4,29 +4,240 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtWidgets import QLabel, QMainWindow, QWidget
+from PySide6.QtCore import QByteArray, Qt, Signal
+from PySide6.QtGui import QCloseEvent
+from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabWidget, QVBoxLayout, QWidget
 
+from genmojo_studio import notify
 from genmojo_studio.actions import ActionTable
+from genmojo_studio.background import Tasks
+from genmojo_studio.settings import Settings
 from genmojo_studio.state import AppState
+from genmojo_studio.translate import tr
+from genmojo_studio.undo import UndoStack
+from genmojo_studio.watch import commands
+from genmojo_studio.watch.appearance import Appearance
+from genmojo_studio.watch.center import Center
+from genmojo_studio.watch.compare_panel import ComparePanel
+from genmojo_studio.watch.controls import scrolled
+from genmojo_studio.watch.curves import Curves
+from genmojo_studio.watch.leaving import may_leave
+from genmojo_studio.watch.objects_panel import ObjectsPanel
+from genmojo_studio.watch.picking_panel import PickingPanel
+from genmojo_studio.watch.player import Player
+from genmojo_studio.watch.run_control import RunControl
+from genmojo_studio.watch.run_log import RunLog
+from genmojo_studio.watch.run_setup import RunSetup
+from genmojo_studio.watch.run_status import RunStatus
+from genmojo_studio.watch.scene_view import SceneView
+from genmojo_studio.watch.session import Session
+from genmojo_studio.watch.take_away import TakeAway
+from genmojo_studio.watch.time_bar import TimeBar
+from genmojo_studio.watch.tracks_panel import TracksPanel
+from genmojo_studio.watch.view_panel import ViewPanel
+
+_LAYOUT_VERSION = 1
 
 
 class WatchWorkspace(QMainWindow):
-    """Optimise, look at, question, compare and take away a scene."""
+    """Optimise, look at, question, compare and take away a scene. `said(text)`: what it is doing, "" for nothing."""
+
+    said = Signal(str)
 
     def __init__(self, state: AppState, actions: ActionTable, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.state = state
-        self.actions_table = actions
-        self.setCentralWidget(QLabel("watch"))
+        self.table = actions
+        self.undo = UndoStack()
+        self.appearance = Appearance(self.undo, self)
+        self.tasks = Tasks(self)
+        self.session = Session(state, self.tasks, self)
+        self.control = RunControl(self)
+        self.player = Player(state, self.isVisible, self)
+        self.view = SceneView(state, self.appearance, self.undo)
+        self.center = Center(state, actions, self.session, self.view)
+        self.view_panel = ViewPanel(actions, self.appearance)
+        self.objects_panel = ObjectsPanel(state, actions, self.appearance)
+        self.setup = RunSetup(state)
+        self.status = RunStatus(state, actions, self.control)
+        self.curves = Curves(state)
+        self.picking = PickingPanel(state)
+        self.tracks = TracksPanel(state)
+        self.compare = ComparePanel(state, self.view)
+        self.take_away = TakeAway(state, self.session, self.control, self.view, self)
+        self._arrange()
+        self._connect()
+        commands.bind(self)
 
     def open_clip(self, path: Path) -> None:
-        """Shows the clip of the shared state."""
+        """Shows the clip of the shared state; a scene of another clip goes away."""
+        scene = self.session.scene
+        if scene is not None and str(scene.config.get("input", "")) == str(path):
+            return
+        if not self.control.live:
+            self.session.clear()
+            self.center.set_mode("side")
+        self._clip_changed()
 
     def open_path(self, path: Path, kind: str) -> None:
-        """Shows a scene file, a PLY or a run folder."""
+        """Shows a scene file, a PLY (or a folder of them), or a run folder."""
+        if kind == "scene":
+            self.session.open_scene(path)
+        elif kind == "ply":
+            self.session.open_ply(path)
+        else:
+            commands.open_run(self, path)
 
     def save_layout(self) -> None:
         """Remembers where the panels are."""
+        Settings().put_layout("watch", self.saveState(_LAYOUT_VERSION))
 
     def restore_layout(self) -> None:
-        """Puts the panels where they were."""
+        """Puts the panels where they were, or where they were delivered."""
+        stored = Settings().layout("watch")
+        self.restoreState(stored if stored is not None else self._delivered, _LAYOUT_VERSION)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Asks what becomes of a run that goes on."""
+        if not may_leave(self.control, self):
+            event.ignore()
+            return
+        self.setup.effects.stop()
+        self.take_away.close()
+        self.center.comparison.close()
+        self.compare.close()
+        self.view.close()
+        self.tasks.close()
+        event.accept()
+
+    def _arrange(self) -> None:
+        middle = QWidget()
+        layout = QVBoxLayout(middle)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.center, 1)
+        layout.addWidget(TimeBar(self.state, self.table, self.player))
+        self.setCentralWidget(middle)
+        self.run_tabs = QTabWidget()
+        self.run_tabs.setDocumentMode(True)
+        self.run_tabs.addTab(scrolled(_padded(self.setup)), tr("New run"))
+        self.run_tabs.addTab(scrolled(_padded(self.status)), tr("This run"))
+        self.setDockOptions(QMainWindow.DockOption.AllowTabbedDocks | QMainWindow.DockOption.AllowNestedDocks)
+        self.setTabPosition(Qt.DockWidgetArea.AllDockWidgetAreas, QTabWidget.TabPosition.North)
+        left, right, bottom = (
+            Qt.DockWidgetArea.LeftDockWidgetArea,
+            Qt.DockWidgetArea.RightDockWidgetArea,
+            Qt.DockWidgetArea.BottomDockWidgetArea,
+        )
+        self.setCorner(Qt.Corner.BottomRightCorner, right)
+        self.setCorner(Qt.Corner.BottomLeftCorner, left)
+        self.docks = {
+            "view": self._dock("view", tr("View"), scrolled(self.view_panel), left),
+            "objects": self._dock("objects", tr("Objects"), self.objects_panel, left),
+            "run": self._dock("run", tr("Run"), self.run_tabs, right),
+            "curves": self._dock("curves", tr("Curves"), self.curves, bottom),
+            "picking": self._dock("picking", tr("Picked Gaussian"), self.picking, bottom),
+            "tracks": self._dock("tracks", tr("Point tracks"), self.tracks, bottom),
+            "compare": self._dock("compare", tr("Compare scenes"), self.compare, bottom),
+        }
+        for name in ("picking", "tracks", "compare"):
+            self.tabifyDockWidget(self.docks["curves"], self.docks[name])
+        self.docks["curves"].raise_()
+        self.resizeDocks([self.docks["view"], self.docks["run"]], [290, 400], Qt.Orientation.Horizontal)
+        self.resizeDocks([self.docks["curves"]], [250], Qt.Orientation.Vertical)
+        self._delivered: QByteArray = self.saveState(_LAYOUT_VERSION)
+
+    def _dock(self, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
+        dock = QDockWidget(title)
+        dock.setObjectName(name)
+        dock.setWidget(widget)
+        self.addDockWidget(area, dock)
+        return dock
+
+    def _connect(self) -> None:
+        session, control = self.session, self.control
+        session.busy.connect(self.said)
+        session.snapshot_changed.connect(self._show_snapshot)
+        session.scene_changed.connect(self._scene_changed)
+        control.snapshot.connect(session.take_preview)
+        control.log_grew.connect(self._log_grew)
+        control.failed.connect(self._tell)
+        control.ended.connect(self._run_ended)
+        control.quiet.connect(self.view.set_quiet)
+        control.state_changed.connect(self.table.changed)
+        self.setup.start_wanted.connect(lambda: self.table.trigger("run.start"))
+        self.status.resume_button.clicked.connect(self._resume)
+        self.view.orbit_changed.connect(self._show_orbit)
+        self.view.picked.connect(self._picked)
+        self.view_panel.orbit_wanted.connect(self.view.set_orbit)
+        self.center.comparison.measured.connect(self.objects_panel.show_psnr)
+        self.tracks.changed.connect(self._show_tracks)
+        self.appearance.changed.connect(self._look_changed)
+        self.state.subscribe(self._frame_changed, "frame")
+        self.state.subscribe(self._clip_changed, "clip")
+
+    def _show_snapshot(self) -> None:
+        snapshot = self.session.snapshot
+        self.view.show_snapshot(snapshot)
+        self.objects_panel.show_snapshot(snapshot)
+        self._show_orbit()
+
+    def _scene_changed(self) -> None:
+        self.undo.clear()
+        scene = self.session.scene
+        self.tracks.show_scene(scene)
+        if scene is not None and not self.control.log.step:
+            self.curves.show_log(RunLog.of_scene(scene.curve))
+        self.picking.clear()
+        self.table.changed()
+
+    def _clip_changed(self) -> None:
+        clip = self.state.clip
+        if clip is not None and len(clip.seconds) > 1:
+            self.player.fps = (len(clip.seconds) - 1) / max(float(clip.seconds[-1] - clip.seconds[0]), 1e-6)
+
+    def _frame_changed(self) -> None:
+        self.view.set_time(self.state.frame)
+        if self.control.live and not self.state.playing:
+            self.control.look(self.state.frame)
+        self._show_orbit()
+
+    def _show_orbit(self) -> None:
+        snapshot = self.session.snapshot
+        if snapshot is not None:
+            self.view_panel.show_orbit(self.view.orbit, self.view.reference, snapshot.supervised)
+
+    def _look_changed(self) -> None:
+        self.center.show_render_mode(str(self.appearance.look.mode))
+        self.table.changed()
+
+    def _show_tracks(self) -> None:
+        shown = self.tracks.sets.sets.values() if self.view.tracks_shown else ()
+        self.view.show_tracks(shown, self.tracks.selected)
+        self.center.input_picture.show_tracks(shown, self.tracks.selected)
+        self.center.joined_picture.show_tracks(shown, self.tracks.selected)
+
+    def _picked(self, x: float, y: float) -> None:
+        self.picking.show_pick(self.view.pick(x, y), self.session.snapshot)
+        self.docks["picking"].raise_()
+
+    def _log_grew(self) -> None:
+        self.curves.changed()
+
+    def _run_ended(self, scene: Path) -> None:
+        self.session.open_scene(scene)
+
+    def _resume(self) -> None:
+        if self.control.run_dir is not None:
+            self.control.resume(self.control.run_dir)
+
+    def _tell(self, error: BaseException) -> None:
+        notify.tell(error, self)
+
+
+def _padded(inside: QWidget) -> QWidget:
+    holder = QWidget()
+    layout = QVBoxLayout(holder)
+    layout.setContentsMargins(8, 8, 8, 8)
+    layout.addWidget(inside)
+    return holder

@@ -1,0 +1,192 @@
+"""Point tracks: which sets are drawn, how far they are apart in every frame, and where it is worst."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QComboBox,
+    QFileDialog,
+    QLabel,
+    QPushButton,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from genmojo_core.errors import GenmojoError
+from genmojo_core.store.scene_file import BakedScene
+from genmojo_core.tracks.model import PointTracks
+from genmojo_studio import notify
+from genmojo_studio.state import AppState
+from genmojo_studio.theme import SERIES, colours
+from genmojo_studio.translate import tr
+from genmojo_studio.watch import track_sets
+from genmojo_studio.watch.controls import row
+from genmojo_studio.watch.track_sets import Apart, TrackSet, TrackSets
+
+_MOST_WORST = 50
+
+
+class TracksPanel(QWidget):
+    """Sets of tracks and their distance to a reference set. Emits `changed` when what is drawn changes."""
+
+    changed = Signal()
+
+    def __init__(self, state: AppState, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._state = state
+        self.sets = TrackSets()
+        self._apart: Apart | None = None
+        self.list = QTreeWidget()
+        self.list.setHeaderLabels([tr("Tracks"), tr("Origin"), tr("Points")])
+        self.list.setRootIsDecorated(False)
+        self.list.setMaximumHeight(110)
+        self.which, self.reference = QComboBox(), QComboBox()
+        self.plot = pg.PlotWidget()
+        self.plot.setMinimumHeight(110)
+        self.plot.setLabel("bottom", tr("frame"))
+        self.plot.setLabel("left", tr("px at 256"))
+        self.plot.hideButtons()
+        self.plot.setMouseEnabled(False, False)
+        self._line = self.plot.plot(pen=pg.mkPen(SERIES[0], width=2), connect="finite")
+        self._here = pg.InfiniteLine(0, angle=90, pen=pg.mkPen(SERIES[1]))
+        self.plot.addItem(self._here, ignoreBounds=True)
+        self.plot.scene().sigMouseClicked.connect(self._clicked)
+        self.said = QLabel()
+        self.said.setProperty("role", "dim")
+        self.worst = QTreeWidget()
+        self.worst.setHeaderLabels([tr("Track"), tr("Worst frame"), tr("Distance")])
+        self.worst.setRootIsDecorated(False)
+        bring, jump = QPushButton(tr("Import…")), QPushButton(tr("Jump to worst"))
+        bring.clicked.connect(self._ask_import)
+        jump.clicked.connect(self.jump_to_worst)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(8, 8, 8, 8)
+        layout.addWidget(self.list)
+        layout.addLayout(row(bring, jump))
+        layout.addLayout(row(self.which, QLabel(tr("against")), self.reference))
+        layout.addWidget(self.plot)
+        layout.addWidget(self.said)
+        layout.addWidget(self.worst, 1)
+        self.list.itemChanged.connect(self._ticked)
+        for box in (self.which, self.reference):
+            box.activated.connect(self._compare)
+        self.worst.itemClicked.connect(self._jump)
+        state.subscribe(self._follow_clip, "clip")
+        state.subscribe(self._show_frame, "frame")
+        state.subscribe(self._dress, "theme")
+        self._dress()
+
+    @property
+    def selected(self) -> tuple[str, int] | None:
+        """(set, row) of the selected track."""
+        chosen = self._state.selected_track
+        return (str(self.which.currentData()), chosen) if chosen is not None and self.which.count() else None
+
+    def show_scene(self, scene: BakedScene | None) -> None:
+        """Takes the predicted tracks of a scene file."""
+        self.sets.drop("predicted")
+        if scene is not None and scene.predicted is not None:
+            self.sets.put(TrackSet(tr("Scene"), "predicted", scene.predicted))
+        self._refill()
+
+    def add(self, name: str, kind: str, tracks: PointTracks) -> None:
+        """Adds a set, in source pixels of the clip."""
+        self.sets.put(TrackSet(name, kind, tracks))
+        self._refill()
+
+    def jump_to_worst(self) -> None:
+        """The track and frame farthest from the reference."""
+        if self.worst.topLevelItemCount():
+            self._jump(self.worst.topLevelItem(0))
+
+    def _follow_clip(self) -> None:
+        self.sets.drop("annotated", "imported")
+        clip = self._state.clip
+        if clip is not None and clip.tracks is not None:
+            self.sets.put(TrackSet(tr("Of the clip"), "annotated", clip.tracks.value))
+        self._refill()
+
+    def _refill(self) -> None:
+        self.list.blockSignals(True)
+        self.list.clear()
+        kinds = {"predicted": tr("predicted"), "annotated": tr("annotated"), "imported": tr("imported")}
+        for one in self.sets.sets.values():
+            item = QTreeWidgetItem([one.name, kinds[one.kind], str(len(one.tracks.state))])
+            item.setCheckState(0, Qt.CheckState.Checked if one.shown else Qt.CheckState.Unchecked)
+            self.list.addTopLevelItem(item)
+        self.list.blockSignals(False)
+        for box, default in ((self.which, "predicted"), (self.reference, "annotated")):
+            before = box.currentData()
+            box.clear()
+            for one in self.sets.sets.values():
+                box.addItem(one.name, one.name)
+            wanted = before if before in self.sets.sets else self._first_of(default)
+            box.setCurrentIndex(max(box.findData(wanted), 0))
+        self._compare()
+        self.changed.emit()
+
+    def _first_of(self, kind: str) -> str:
+        return next((one.name for one in self.sets.sets.values() if one.kind == kind), "")
+
+    def _compare(self) -> None:
+        first = self.sets.sets.get(str(self.which.currentData()))
+        second = self.sets.sets.get(str(self.reference.currentData()))
+        self.worst.clear()
+        self._apart = None
+        self._line.setData([], [])
+        self.said.setText("")
+        if first is None or second is None or first is second:
+            return
+        self._apart = track_sets.apart(first.tracks, second.tracks)
+        by_frame = self._apart.by_frame()
+        self._line.setData(np.arange(1, len(by_frame) + 1), by_frame)
+        known = self._apart.error[np.isfinite(self._apart.error)]
+        text = tr("{count} pairs, median {median:.2f} px, states differ in {share:.1f} %")
+        if len(known):
+            share = 100 * self._apart.state_differs.mean()
+            count = int((self._apart.partner >= 0).sum())
+            self.said.setText(text.format(count=count, median=float(np.median(known)), share=share))
+        for track, frame, distance in self._apart.worst(_MOST_WORST):
+            item = QTreeWidgetItem([str(track + 1), str(frame + 1), f"{distance:.1f} px"])
+            item.setData(0, Qt.ItemDataRole.UserRole, (track, frame))
+            self.worst.addTopLevelItem(item)
+
+    def _ticked(self, item: QTreeWidgetItem) -> None:
+        self.sets.sets[item.text(0)].shown = item.checkState(0) == Qt.CheckState.Checked
+        self.changed.emit()
+
+    def _jump(self, item: QTreeWidgetItem | None) -> None:
+        if item is not None:
+            track, frame = item.data(0, Qt.ItemDataRole.UserRole)
+            self.worst.setCurrentItem(item)
+            self._state.set(playing=False, frame=int(frame), selected_track=int(track))
+            self.changed.emit()
+
+    def _clicked(self, event: object) -> None:
+        at = self.plot.getPlotItem().vb.mapSceneToView(event.scenePos())  # type: ignore[attr-defined]
+        self._state.set(playing=False, frame=round(at.x()) - 1)
+
+    def _ask_import(self) -> None:
+        clip = self._state.clip
+        if clip is None:
+            return
+        path, _ = QFileDialog.getOpenFileName(self, tr("Import tracks"), "", "npz (*.npz)")
+        if path:
+            try:
+                self.add(path.rsplit("/", 1)[-1], "imported", track_sets.read(path, clip.source_size))
+            except GenmojoError as error:
+                notify.tell(error, self)
+
+    def _show_frame(self) -> None:
+        self._here.setValue(self._state.frame + 1)
+
+    def _dress(self) -> None:
+        table = colours(self._state.theme)
+        self.plot.setBackground(table.field)
+        for side in ("bottom", "left"):
+            self.plot.getAxis(side).setTextPen(table.text)
+            self.plot.getAxis(side).setPen(table.line)
