@@ -19,6 +19,9 @@ from typing import Any
 import llvmlite
 import llvmlite.binding
 import numba
+from numba.core import types
+
+from genmojo_core.kernels.pieces import KernelCompiler, PieceCompiler
 
 PACKAGE = Path(__file__).resolve().parents[1]
 SOURCES = ("kernels", "render/cpu", "scene/planes_cpu", "render/rasterizer.py")  # all that ends up in kernels
@@ -31,12 +34,12 @@ def kernel(function: Callable) -> Any:
     """Compile on first call, without the interpreter lock, kept on disk where a folder can be written."""
     folder = cache_folder()
     if folder is None:
-        return _JIT(**_OPTIONS)(function)
+        return _JIT(pipeline_class=KernelCompiler, **_OPTIONS)(function)
     settings: Any = numba.config
     before = settings.CACHE_DIR
     settings.CACHE_DIR = str(folder)  # read while the function is declared, so it can be put back at once
     try:
-        return _JIT(cache=True, **_OPTIONS)(function)
+        return _JIT(cache=True, pipeline_class=KernelCompiler, **_OPTIONS)(function)
     finally:
         settings.CACHE_DIR = before
 
@@ -46,7 +49,11 @@ def inlined(function: Callable) -> Any:
 
     It cannot be called from Python; leaving those wrappers out saves a fifth of the compile time.
     """
-    return _JIT(forceinline=True, no_cpython_wrapper=True, **_OPTIONS)(function)
+    piece = _JIT(forceinline=True, no_cpython_wrapper=True, pipeline_class=PieceCompiler, **_OPTIONS)(function)
+    resolve = piece.get_call_template
+    # numba would compile a piece anew for every constant it is called with; inlining finds those constants anyway
+    piece.get_call_template = lambda arguments, named: resolve(tuple(types.unliteral(a) for a in arguments), named)
+    return piece
 
 
 def fingerprint(package: Path = PACKAGE) -> str:

@@ -18,7 +18,8 @@ from llvmlite import ir
 from numba.core import types
 from numba.core.cgutils import get_or_insert_function
 from numba.core.datamodel import models
-from numba.extending import intrinsic, lower_builtin, register_model, type_callable
+from numba.core.typing.templates import AbstractTemplate, infer_global, signature
+from numba.extending import intrinsic, lower_builtin, register_model
 
 from genmojo_core.kernels.cache import inlined
 
@@ -102,46 +103,49 @@ def _is_vector_operation(a: types.Type, b: types.Type) -> bool:
     return any(kinds) and all(k or isinstance(t, types.Number) for k, t in zip(kinds, (a, b), strict=True))
 
 
-def _register(operation: Callable, result: types.Type, build: Callable) -> None:
-    """Give a Python operator a meaning on Float8 (and numbers mixed in): build(builder, a, b)."""
+def _are_masks(a: types.Type, b: types.Type) -> bool:
+    """Two Mask8."""
+    return isinstance(a, Mask8Type) and isinstance(b, Mask8Type)
 
-    @type_callable(operation)
-    def typer(context: Any) -> Callable:
-        def resolve(a: types.Type, b: types.Type) -> types.Type | None:
-            return result if _is_vector_operation(a, b) else None
 
-        return resolve
+def _vectors(context: Any, builder: ir.IRBuilder, kinds: Any, values: Any) -> list[ir.Value]:
+    """Operands as vectors of eight lanes: numbers are cast to float32 and broadcast."""
+    return [v if isinstance(t, Mask8Type) else _as_vector(context, builder, t, v)
+            for t, v in zip(kinds, values, strict=True)]  # fmt: skip
+
+
+def _register(operation: Callable, fits: Callable, result: types.Type, build: Callable) -> None:
+    """Give a Python operator a meaning on vectors where `fits(type, type)`: build(builder, a, b)."""
+
+    class Operator(AbstractTemplate):
+        """The type of the result; being made for this target it is asked before numba's own dozens of rules."""
+
+        key = operation
+
+        def generic(self, arguments: tuple, keywords: dict) -> Any:
+            """The signature, or None where the operands are no vectors."""
+            return signature(result, *arguments) if fits(*arguments) else None
+
+    Operator.metadata = {"target": "cpu"}
 
     def lower(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        vectors = [_as_vector(context, builder, t, v) for t, v in zip(signature.args, arguments, strict=True)]
-        return build(builder, *vectors)
+        return build(builder, *_vectors(context, builder, signature.args, arguments))
 
-    for pair in ((Float8Type, Float8Type), (Float8Type, types.Number), (types.Number, Float8Type)):
+    infer_global(operation)(Operator)
+    pairs = [(Mask8Type, Mask8Type)] if fits is _are_masks else [
+        (Float8Type, Float8Type), (Float8Type, types.Number), (types.Number, Float8Type)]  # fmt: skip
+    for pair in pairs:
         lower_builtin(operation, *pair)(lower)
 
 
-_register(operator.add, Float8, lambda builder, a, b: builder.fadd(a, b))
-_register(operator.sub, Float8, lambda builder, a, b: builder.fsub(a, b))
-_register(operator.mul, Float8, lambda builder, a, b: builder.fmul(a, b))
-_register(operator.truediv, Float8, lambda builder, a, b: builder.fdiv(a, b))
-for _operation, _symbol in ((operator.ge, ">="), (operator.gt, ">"), (operator.le, "<="), (operator.lt, "<")):
-    _register(_operation, Mask8, lambda builder, a, b, symbol=_symbol: builder.fcmp_ordered(symbol, a, b))
-
-
-@type_callable(operator.and_)
-def _type_and(context: Any) -> Callable:
-    """Mask8 & Mask8."""
-
-    def resolve(a: types.Type, b: types.Type) -> types.Type | None:
-        return Mask8 if isinstance(a, Mask8Type) and isinstance(b, Mask8Type) else None
-
-    return resolve
-
-
-@lower_builtin(operator.and_, Mask8Type, Mask8Type)
-def _lower_and(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-    """Lane-wise and."""
-    return builder.and_(*arguments)
+_ARITHMETIC = {operator.add: "fadd", operator.sub: "fsub", operator.mul: "fmul", operator.truediv: "fdiv"}
+_ORDER = {operator.ge: ">=", operator.gt: ">", operator.le: "<=", operator.lt: "<"}
+for _operation, _name in _ARITHMETIC.items():
+    _register(_operation, _is_vector_operation, Float8, lambda builder, a, b, name=_name: getattr(builder, name)(a, b))
+for _operation, _name in _ORDER.items():
+    _register(_operation, _is_vector_operation, Mask8,
+              lambda builder, a, b, name=_name: builder.fcmp_ordered(name, a, b))  # fmt: skip
+_register(operator.and_, _are_masks, Mask8, lambda builder, a, b: builder.and_(a, b))
 
 
 @instruction
@@ -185,6 +189,21 @@ def store8(typingctx: Any, array: types.Type, index: types.Type, value: types.Ty
         return context.get_dummy_value()
 
     return types.void(array, types.intp, Float8), codegen
+
+
+@instruction
+def store_rows(typingctx: Any, array: types.Type, index: types.Type, vectors: types.Type) -> Any:
+    """Write the vectors of a tuple one after the other, the first at element `index`."""
+
+    def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        array, index, vectors = arguments
+        for row in range(len(signature.args[2])):
+            at = builder.add(index, ir.Constant(index.type, LANES * row))
+            place = _pointer(context, builder, signature.args[0], array, at)
+            builder.store(builder.extract_value(vectors, row), place, align=4)
+        return context.get_dummy_value()
+
+    return types.void(array, types.intp, vectors), codegen
 
 
 @instruction
@@ -238,6 +257,36 @@ def min8(typingctx: Any, a: types.Type, b: types.Type) -> Any:
     return Float8(a, b), codegen
 
 
+def _scalars(context: Any, builder: ir.IRBuilder, signature: Any, values: Any) -> list[ir.Value]:
+    """Two numbers cast to the type of the result."""
+    kind = signature.return_type
+    return [context.cast(builder, v, t, kind) for t, v in zip(signature.args, values, strict=True)]
+
+
+def _choice(symbol: str, a: types.Type, b: types.Type) -> Any:
+    """Signature and code of `a if a symbol b else b` on two scalars, int64 or float64."""
+    kind = types.int64 if isinstance(a, types.Integer) and isinstance(b, types.Integer) else types.float64
+
+    def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        a, b = _scalars(context, builder, signature, arguments)
+        compare = builder.icmp_signed if kind is types.int64 else builder.fcmp_ordered
+        return builder.select(compare(symbol, a, b), a, b)
+
+    return kind(a, b), codegen
+
+
+@instruction
+def smaller(typingctx: Any, a: types.Type, b: types.Type) -> Any:
+    """The smaller of two numbers as int64 or float64 (b where either is NaN); Python's `min` compiles longer."""
+    return _choice("<", a, b)
+
+
+@instruction
+def larger(typingctx: Any, a: types.Type, b: types.Type) -> Any:
+    """The larger of two numbers as int64 or float64 (b where either is NaN)."""
+    return _choice(">", a, b)
+
+
 @instruction
 def select8(typingctx: Any, mask: types.Type, a: types.Type, b: types.Type) -> Any:
     """a where the mask holds, else b."""
@@ -256,6 +305,17 @@ def bits(typingctx: Any, mask: types.Type) -> Any:
 
     def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         return builder.zext(builder.bitcast(arguments[0], ir.IntType(8)), ir.IntType(64))
+
+    return types.int64(Mask8), codegen
+
+
+@instruction
+def any_lane(typingctx: Any, mask: types.Type) -> Any:
+    """1 where some lane holds, else 0, as an int64."""
+
+    def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        lanes = builder.bitcast(arguments[0], ir.IntType(8))
+        return builder.zext(builder.icmp_unsigned("!=", lanes, ir.Constant(lanes.type, 0)), ir.IntType(64))
 
     return types.int64(Mask8), codegen
 

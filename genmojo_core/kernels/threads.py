@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import os
+import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from itertools import count as counter
 
+import numpy as np
+
 _state: dict[str, ThreadPoolExecutor | int | None] = {"pool": None, "threads": 0}
+_local = threading.local()
 
 
 def available_threads() -> int:
@@ -58,6 +62,14 @@ def run_jobs(job: Callable[[int], object], count: int) -> None:
 def run_ranges(kernel: Callable[[int, int], object], size: int, chunk: int) -> None:
     """Call kernel(start, stop) over 0..size-1 in pieces of `chunk` (the same pieces for any number of threads)."""
     run_jobs(lambda index: kernel(index * chunk, min((index + 1) * chunk, size)), -(-size // chunk))
+
+
+def scratch(floats: int) -> np.ndarray:
+    """(floats,) float32 of any content, the calling thread's own; valid until it asks again."""
+    kept = getattr(_local, "floats", None)
+    if kept is None or len(kept) < floats:
+        _local.floats = kept = np.empty(floats, np.float32)
+    return kept[:floats]
 
 
 def _pool() -> ThreadPoolExecutor:

@@ -29,8 +29,10 @@ from genmojo_core.kernels.simd import (
     min8,
     prefetch,
     select8,
+    smaller,
     splat8,
     store8,
+    store_rows,
     sum_rows,
     trailing_zeros,
 )  # fmt: skip
@@ -68,6 +70,11 @@ class Slopes(NamedTuple):
     planes: np.ndarray  # like Drawing.planes, float32: upstream gradients, zero outside the image
     rows: np.ndarray  # (E * row,) float32 by slot: 6 moments, then the slots' sums
     row: int  # floats per row, a multiple of 8
+
+
+def slope_floats(slots: int) -> int:
+    """Size of the scratch of `slope_tiles`; one block to spare, because channel_sums reads over the end."""
+    return STATE + (BLOCKS + 1) * (HEADER + slots) * LANES
 
 
 @inlined
@@ -150,8 +157,7 @@ def moments(records: np.ndarray, at: int, hit: int, stride: int, corner: tuple, 
         m3, m4, m5 = fma(vx, dx, m3), fma(vx, dy, m4), fma(vy, dy, m5)
         cell = FIRST_GRADIENT + block * stride
         m6, m7 = fma(w, load8(scratch, cell), m6), fma(w, load8(scratch, cell + LANES), m7)
-    for k, m in enumerate((m0, m1, m2, m3, m4, m5, m6, m7)):
-        store8(scratch, SUMS + k * LANES, m)
+    store_rows(scratch, SUMS, (m0, m1, m2, m3, m4, m5, m6, m7))
 
 
 @inlined
@@ -171,8 +177,7 @@ def channel_sums(scratch: np.ndarray, hit: int, slots: int, stride: int) -> None
             s2, s3 = fma(w, load8(scratch, cell + 16), s2), fma(w, load8(scratch, cell + 24), s3)
             s4, s5 = fma(w, load8(scratch, cell + 32), s4), fma(w, load8(scratch, cell + 40), s5)
             s6, s7 = fma(w, load8(scratch, cell + 48), s6), fma(w, load8(scratch, cell + 56), s7)
-        for k, s in enumerate((s0, s1, s2, s3, s4, s5, s6, s7)):
-            store8(scratch, SUMS + (MOMENTS + first + k) * LANES, s)
+        store_rows(scratch, SUMS + (MOMENTS + first) * LANES, (s0, s1, s2, s3, s4, s5, s6, s7))
         first += 8
     while first < slots:  # of the last four, two may lie behind the slots: they are summed and never read
         s0, s1, s2, s3 = zero, zero, zero, zero
@@ -184,20 +189,21 @@ def channel_sums(scratch: np.ndarray, hit: int, slots: int, stride: int) -> None
             weights += LANES
             s0, s1 = fma(w, load8(scratch, cell), s0), fma(w, load8(scratch, cell + 8), s1)
             s2, s3 = fma(w, load8(scratch, cell + 16), s2), fma(w, load8(scratch, cell + 24), s3)
-        for k, s in enumerate((s0, s1, s2, s3)):
-            store8(scratch, SUMS + (MOMENTS + first + k) * LANES, s)
+        store_rows(scratch, SUMS + (MOMENTS + first) * LANES, (s0, s1, s2, s3))
         first += 4
 
 
 @kernel
-def slope_tiles(start: int, stop: int, drawing: Drawing, bins: Bins, slopes: Slopes) -> None:
-    """Write the gradient rows of all entries of tiles start..stop-1 that forward saw."""
+def slope_tiles(start: int, stop: int, drawing: Drawing, bins: Bins, slopes: Slopes, scratch: np.ndarray) -> None:
+    """Write the gradient rows of all entries of tiles start..stop-1 that forward saw.
+
+    scratch: `slope_floats(slots)` float32, of any content.
+    """
     slots = drawing.slots
     width = GEOMETRY + slots
     stride = (HEADER + slots) * LANES
-    scratch = np.empty(STATE + (BLOCKS + 1) * stride, np.float32)  # one block to spare: channel_sums reads over the end
-    for i in range(scratch.size):
-        scratch[i] = 0
+    for i in range(0, scratch.size, LANES):
+        store8(scratch, i, splat8(np.float32(0)))
     prepare(scratch)
     pitch = bins.tiles_x * TILE
     for tile in range(start, stop):
@@ -209,10 +215,10 @@ def slope_tiles(start: int, stop: int, drawing: Drawing, bins: Bins, slopes: Slo
         corner = (np.float32(left), np.float32(top))
         for entry in range(bins.tile_start[tile], last):
             slot = bins.slot[entry]
-            hit = int(drawing.hits[slot])
+            hit = np.int64(drawing.hits[slot])
             if hit == 0:
                 continue
-            coming = min(entry + AHEAD, last - 1)
+            coming = smaller(entry + AHEAD, last - 1)
             prefetch(drawing.records, bins.rank[coming] * width)
             prefetch(slopes.rows, bins.slot[coming] * slopes.row)
             at = bins.rank[entry] * width

@@ -14,7 +14,7 @@ import numpy as np
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.kernels.cache import inlined, kernel
-from genmojo_core.kernels.simd import prefetch
+from genmojo_core.kernels.simd import prefetch, smaller
 from genmojo_core.render.cpu.project import GEOMETRY, Ellipses, Lens
 
 TILE = 16  # pixels
@@ -73,7 +73,7 @@ def gather(start: int, stop: int, order: np.ndarray, ellipses: Ellipses, source:
     """
     features, columns = source
     for rank in range(start, stop):
-        coming = order[min(rank + AHEAD, stop - 1)]
+        coming = order[smaller(rank + AHEAD, stop - 1)]
         prefetch(ellipses.geometry, GEOMETRY * coming)
         prefetch(features, features.shape[1] * coming)
         i = order[rank]

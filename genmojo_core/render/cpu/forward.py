@@ -22,15 +22,18 @@ import numpy as np
 from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.kernels.simd import (
     EXP2_FLOATS,
+    any_lane,
     bits,
     broadcast8,
     exp2_8,
     fma,
+    larger,
     load8,
     min8,
     prefetch,
     prepare_exp2,
     select8,
+    smaller,
     splat8,
     store4x2,
     store8,
@@ -66,11 +69,16 @@ class Drawing(NamedTuple):
     height: int
 
 
+def drawing_floats(slots: int) -> int:
+    """Size of the scratch of `draw_tiles`."""
+    return STATE + BLOCKS * (1 + slots) * LANES
+
+
 @inlined
 def block_mask(box: np.ndarray, rank: int, left: int, top: int) -> int:
     """Blocks of the tile at pixel (left, top) that a splat's box touches; block = 4 row + column."""
-    first_x, last_x = max(box[rank, 0] - left, 0) >> 2, min(box[rank, 1] - left, TILE - 1) >> 2
-    first_y, last_y = max(box[rank, 2] - top, 0) >> 1, min(box[rank, 3] - top, TILE - 1) >> 1
+    first_x, last_x = larger(box[rank, 0] - left, 0) >> 2, smaller(box[rank, 1] - left, TILE - 1) >> 2
+    first_y, last_y = larger(box[rank, 2] - top, 0) >> 1, smaller(box[rank, 3] - top, TILE - 1) >> 1
     columns = (1 << (last_x + 1)) - (1 << first_x)
     rows = (1 << (4 * (last_y + 1))) - (1 << (4 * first_y))
     return (columns * 0x11111111) & rows
@@ -79,8 +87,8 @@ def block_mask(box: np.ndarray, rank: int, left: int, top: int) -> int:
 @inlined
 def inside_mask(left: int, top: int, width: int, height: int) -> int:
     """Blocks of the tile with at least one pixel of the image."""
-    columns = min((width - left + BLOCK_WIDTH - 1) // BLOCK_WIDTH, 4)
-    rows = min((height - top + BLOCK_HEIGHT - 1) // BLOCK_HEIGHT, 8)
+    columns = smaller((width - left + BLOCK_WIDTH - 1) // BLOCK_WIDTH, 4)
+    rows = smaller((height - top + BLOCK_HEIGHT - 1) // BLOCK_HEIGHT, 8)
     return (((1 << columns) - 1) * 0x11111111) & ((1 << (4 * rows)) - 1)
 
 
@@ -140,7 +148,7 @@ def blend(records: np.ndarray, first: int, slots: int, mask: int, scratch: np.nd
         after = select8(rest > STOP, rest, zero - t)
         going = seen & (rest > STOP)
         store8(scratch, cell, select8(seen, after, t))
-        seen_blocks |= int(bits(seen) != 0) << block
+        seen_blocks |= any_lane(seen) << block
         add_channels(scratch, cell + LANES, records, first, slots, select8(going, part, zero))
         if bits(going) != bits(seen) and bits(load8(scratch, cell) > zero) == 0:
             finished |= 1 << block
@@ -163,17 +171,19 @@ def write_tile(drawing: Drawing, scratch: np.ndarray, left: int, top: int, pitch
 
 
 @kernel
-def draw_tiles(start: int, stop: int, drawing: Drawing, bins: Bins) -> None:
-    """Blend tiles start..stop-1 into the planes and record which blocks each entry was seen in."""
+def draw_tiles(start: int, stop: int, drawing: Drawing, bins: Bins, scratch: np.ndarray) -> None:
+    """Blend tiles start..stop-1 into the planes and record which blocks each entry was seen in.
+
+    scratch: `drawing_floats(slots)` float32, of any content.
+    """
     slots = drawing.slots
     width = GEOMETRY + slots
-    scratch = np.empty(STATE + BLOCKS * (1 + slots) * LANES, np.float32)
     prepare(scratch)
     pitch = bins.tiles_x * TILE
     for tile in range(start, stop):
         left, top = (tile % bins.tiles_x) * TILE, (tile // bins.tiles_x) * TILE
-        for i in range(STATE, scratch.size):
-            scratch[i] = 0
+        for i in range(STATE, STATE + BLOCKS * (1 + slots) * LANES, LANES):
+            store8(scratch, i, splat8(np.float32(0)))
         for block in range(BLOCKS):
             store8(scratch, STATE + block * (1 + slots) * LANES, splat8(np.float32(1)))
         alive = inside_mask(left, top, drawing.width, drawing.height)
@@ -181,7 +191,7 @@ def draw_tiles(start: int, stop: int, drawing: Drawing, bins: Bins) -> None:
         last = bins.tile_start[tile + 1]
         for entry in range(bins.tile_start[tile], last):
             rank = bins.rank[entry]
-            prefetch(drawing.records, bins.rank[min(entry + AHEAD, last - 1)] * width)
+            prefetch(drawing.records, bins.rank[smaller(entry + AHEAD, last - 1)] * width)
             mask = block_mask(bins.box, rank, left, top) & alive
             if mask != 0:
                 write_alphas(drawing.records, rank * width, mask, corner, scratch)

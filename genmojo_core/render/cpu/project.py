@@ -20,6 +20,7 @@ import numpy as np
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.kernels.cache import inlined, kernel
+from genmojo_core.kernels.simd import larger, smaller
 from genmojo_core.render.rasterizer import ALPHA_MIN, FRUSTUM_CLAMP
 
 LOG2_E = 1.4426950408889634
@@ -85,7 +86,7 @@ def _rotation(quats: np.ndarray, i: int) -> tuple:
     """Length of quaternion i and the rows of its matrix (of no meaning where it has no length)."""
     w, x, y, z = float(quats[i, 0]), float(quats[i, 1]), float(quats[i, 2]), float(quats[i, 3])
     square = w * w + x * x + y * y + z * z
-    k = 2.0 / max(square, 1e-300)
+    k = 2.0 / larger(square, 1e-300)
     return (
         math.sqrt(square),
         (1 - k * (y * y + z * z), k * (x * y - w * z), k * (x * z + w * y)),
@@ -107,9 +108,13 @@ def camera_point(lens: Lens, means: np.ndarray, i: int) -> tuple:
 
 
 @inlined
-def _dot(g: tuple, r0: tuple, r1: tuple, r2: tuple, column: int) -> float:
-    """Row vector g times one column of the matrix with rows r0, r1, r2."""
-    return g[0] * r0[column] + g[1] * r1[column] + g[2] * r2[column]
+def _across(g: tuple, r0: tuple, r1: tuple, r2: tuple, s: tuple) -> tuple:
+    """Row vector g times the matrix with rows r0, r1, r2, its columns scaled by s."""
+    return (
+        s[0] * (g[0] * r0[0] + g[1] * r1[0] + g[2] * r2[0]),
+        s[1] * (g[0] * r0[1] + g[1] * r1[1] + g[2] * r2[1]),
+        s[2] * (g[0] * r0[2] + g[1] * r1[2] + g[2] * r2[2]),
+    )
 
 
 @inlined
@@ -118,14 +123,13 @@ def ellipse(lens: Lens, cloud: Cloud, i: int, point: tuple) -> tuple:
     length, r0, r1, r2 = _rotation(cloud.quats, i)
     w = lens.rotation
     s = (float(cloud.scales[i, 0]), float(cloud.scales[i, 1]), float(cloud.scales[i, 2]))
-    u = min(max(point[0] / point[2], lens.limits[0]), lens.limits[1])
-    v = min(max(point[1] / point[2], lens.limits[2]), lens.limits[3])
+    u = smaller(larger(point[0] / point[2], lens.limits[0]), lens.limits[1])
+    v = smaller(larger(point[1] / point[2], lens.limits[2]), lens.limits[3])
     jx, jy = lens.focal[0] / point[2], lens.focal[1] / point[2]
     # rows of J W, then of P = J W R diag(s)
     gx = (jx * (w[0, 0] - u * w[2, 0]), jx * (w[0, 1] - u * w[2, 1]), jx * (w[0, 2] - u * w[2, 2]))
     gy = (jy * (w[1, 0] - v * w[2, 0]), jy * (w[1, 1] - v * w[2, 1]), jy * (w[1, 2] - v * w[2, 2]))
-    px = (s[0] * _dot(gx, r0, r1, r2, 0), s[1] * _dot(gx, r0, r1, r2, 1), s[2] * _dot(gx, r0, r1, r2, 2))
-    py = (s[0] * _dot(gy, r0, r1, r2, 0), s[1] * _dot(gy, r0, r1, r2, 1), s[2] * _dot(gy, r0, r1, r2, 2))
+    px, py = _across(gx, r0, r1, r2, s), _across(gy, r0, r1, r2, s)
     xx = px[0] * px[0] + px[1] * px[1] + px[2] * px[2]
     xy = px[0] * py[0] + px[1] * py[1] + px[2] * py[2]
     yy = py[0] * py[0] + py[1] * py[1] + py[2] * py[2]
@@ -138,9 +142,9 @@ def ellipse(lens: Lens, cloud: Cloud, i: int, point: tuple) -> tuple:
 @inlined
 def _span(centre: float, half: float, size: int) -> tuple:
     """First and last pixel whose centre lies within half of `centre`, inside 0..size-1 (first > last: none)."""
-    first = math.ceil(max(centre - half - 0.5, 0.0))
-    last = math.floor(min(centre + half - 0.5, size - 1.0))
-    return int(min(first, float(size))), int(max(last, -1.0))
+    first = math.ceil(larger(centre - half - 0.5, 0.0))
+    last = math.floor(smaller(centre + half - 0.5, size - 1.0))
+    return np.int64(smaller(first, size)), np.int64(larger(last, -1))
 
 
 @kernel

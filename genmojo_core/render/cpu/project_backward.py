@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
-from genmojo_core.kernels.simd import fma, load8, prefetch, select8, splat8, store8
+from genmojo_core.kernels.simd import fma, load8, prefetch, select8, smaller, splat8, store8, store_rows
 from genmojo_core.render.cpu.bins import Bins
 from genmojo_core.render.cpu.project import Cloud, Lens
 
@@ -30,7 +30,9 @@ AHEAD = 8  # splats
 MEAN, QUAT, SCALE, SUMS = 0, 3, 7, 10  # 3, 4 (unit), 3 and 7 rows of input
 ALONG, POSE = 17, 28  # results: mean 3, quaternion 4 (before the normalisation), scales 3, spare; then pose 12
 TOTAL = 40 * LANES  # a splat's summed row, up to 24 floats
-SCRATCH = TOTAL + 24
+RANKS = TOTAL + 24  # the rank in each lane, counted from the job's first
+INVERSES = RANKS + LANES  # 1 / length of its quaternion
+SCRATCH = INVERSES + LANES
 
 
 class Gradients(NamedTuple):
@@ -148,9 +150,9 @@ def position_slopes(lens: Lens, point: tuple, uv: tuple, vz: tuple, slopes: tupl
 
 @inlined
 def quaternion_slopes(scratch: np.ndarray, g: tuple) -> None:
-    """Rows ALONG + 3..6: gradient g of R to the unit quaternion, its part along the quaternion taken off."""
+    """Rows ALONG + 3..6: gradient of R (its columns g) to the unit quaternion, without the part along it."""
     w, x, y, z = row(scratch, QUAT), row(scratch, QUAT + 1), row(scratch, QUAT + 2), row(scratch, QUAT + 3)
-    a, b, c = g[2][1] - g[1][2], g[0][2] - g[2][0], g[1][0] - g[0][1]
+    a, b, c = g[1][2] - g[2][1], g[2][0] - g[0][2], g[0][1] - g[1][0]
     d, e, f = g[0][1] + g[1][0], g[0][2] + g[2][0], g[1][2] + g[2][1]
     two = np.float32(2)
     gw = (x * a + y * b + z * c) * two
@@ -158,8 +160,8 @@ def quaternion_slopes(scratch: np.ndarray, g: tuple) -> None:
     gy = (w * b + x * d + z * f - y * (g[0][0] + g[2][2]) * two) * two
     gz = (w * c + x * e + y * f - z * (g[0][0] + g[1][1]) * two) * two
     along = w * gw + x * gx + y * gy + z * gz
-    for k, value in enumerate((gw - w * along, gx - x * along, gy - y * along, gz - z * along)):
-        store8(scratch, (ALONG + 3 + k) * LANES, value)
+    free = (gw - w * along, gx - x * along, gy - y * along, gz - z * along)
+    store_rows(scratch, (ALONG + 3) * LANES, free)
 
 
 @inlined
@@ -182,16 +184,15 @@ def slopes_of_eight(lens: Lens, scratch: np.ndarray) -> None:
     centre, h = shape_slopes(scratch, px, py, lens.dilation)
     gpx = (h[0] * px[0] + h[1] * py[0], h[0] * px[1] + h[1] * py[1], h[0] * px[2] + h[1] * py[2])  # dL/dP
     gpy = (h[1] * px[0] + h[2] * py[0], h[1] * px[1] + h[2] * py[1], h[1] * px[2] + h[2] * py[2])
-    for k in range(3):
-        store8(scratch, (ALONG + 7 + k) * LANES, pick(gpx, k) * pick(qx, k) + pick(gpy, k) * pick(qy, k))
+    along = (gpx[0] * qx[0] + gpy[0] * qy[0], gpx[1] * qx[1] + gpy[1] * qy[1], gpx[2] * qx[2] + gpy[2] * qy[2])
+    store_rows(scratch, (ALONG + 7) * LANES, along)
     gx = (gpx[0] * jx * s[0], gpx[1] * jx * s[1], gpx[2] * jx * s[2])
     gy = (gpy[0] * jy * s[0], gpy[1] * jy * s[1], gpy[2] * jy * s[2])
     zero = splat8(np.float32(0))
     gz = (zero - u * gx[0] - v * gy[0], zero - u * gx[1] - v * gy[1], zero - u * gx[2] - v * gy[2])
     stretch = dot3(gpx, px) + dot3(gpy, py)
     gt = position_slopes(lens, point, (u0, v0, inverse), vz, (centre, gx, gy, row(scratch, SUMS + 6), stretch))
-    for k in range(3):
-        store8(scratch, (ALONG + k) * LANES, gt[0] * r[0, k] + gt[1] * r[1, k] + gt[2] * r[2, k])
+    store_rows(scratch, ALONG * LANES, back((w0, w1, w2), gt))
     turn_slopes(scratch, (w0, w1, w2), m, (gx, gy, gz), (gt, mean))
 
 
@@ -202,31 +203,36 @@ def clamped(value: Any, low: float, high: float) -> object:
 
 
 @inlined
-def pick(vector: tuple, k: int) -> object:
-    """Element k of three."""
-    return vector[0] if k == 0 else (vector[1] if k == 1 else vector[2])
-
-
-@inlined
 def turn_slopes(scratch: np.ndarray, w: tuple, m: tuple, g: tuple, splat: tuple) -> None:
     """From g = dL/dV, V = W R: dL/dR = W' g to the quaternion; pose rows dL/dW = gt mean' + g R', dL/dt0 = gt."""
-    quaternion_slopes(scratch, (back(w, 0, g), back(w, 1, g), back(w, 2, g)))
+    columns = (
+        back(w, (g[0][0], g[1][0], g[2][0])),
+        back(w, (g[0][1], g[1][1], g[2][1])),
+        back(w, (g[0][2], g[1][2], g[2][2])),
+    )
+    quaternion_slopes(scratch, columns)
     gt, mean = splat
-    for i, (gi, gti) in enumerate(((g[0], gt[0]), (g[1], gt[1]), (g[2], gt[2]))):
-        store8(scratch, (POSE + 4 * i) * LANES, gti * mean[0] + dot3(gi, m[0]))
-        store8(scratch, (POSE + 4 * i + 1) * LANES, gti * mean[1] + dot3(gi, m[1]))
-        store8(scratch, (POSE + 4 * i + 2) * LANES, gti * mean[2] + dot3(gi, m[2]))
-        store8(scratch, (POSE + 4 * i + 3) * LANES, gti)
+    pose_slopes(scratch, POSE, g[0], gt[0], m, mean)
+    pose_slopes(scratch, POSE + 4, g[1], gt[1], m, mean)
+    pose_slopes(scratch, POSE + 8, g[2], gt[2], m, mean)
 
 
 @inlined
-def back(w: tuple, j: int, g: tuple) -> tuple:
-    """Row j of W' g."""
-    a, b, c = w[0][j], w[1][j], w[2][j]
+def pose_slopes(scratch: np.ndarray, first: int, gi: tuple, gti: object, m: tuple, mean: tuple) -> None:
+    """One row of the pose's gradient, from row `first` on."""
+    turned_row = (
+        gti * mean[0] + dot3(gi, m[0]), gti * mean[1] + dot3(gi, m[1]), gti * mean[2] + dot3(gi, m[2]), gti,
+    )  # fmt: skip
+    store_rows(scratch, first * LANES, turned_row)
+
+
+@inlined
+def back(w: tuple, g: tuple) -> tuple:
+    """W' g of a column g."""
     return (
-        g[0][0] * a + g[1][0] * b + g[2][0] * c,
-        g[0][1] * a + g[1][1] * b + g[2][1] * c,
-        g[0][2] * a + g[1][2] * b + g[2][2] * c,
+        g[0] * w[0][0] + g[1] * w[1][0] + g[2] * w[2][0],
+        g[0] * w[0][1] + g[1] * w[1][1] + g[2] * w[2][1],
+        g[0] * w[0][2] + g[1] * w[1][2] + g[2] * w[2][2],
     )
 
 
@@ -255,16 +261,19 @@ def fetch(i: int, cloud: Cloud, out: Gradients) -> None:
 
 
 @kernel
-def gather_gradients(job: int, span: tuple, bins: Bins, scene: tuple, sums: Sums, out: Gradients) -> None:
-    """Add the gradients of the splats at ranks span[0]..span[1]-1; scene = (lens, cloud)."""
+def gather_gradients(
+    job: int, span: tuple, bins: Bins, scene: tuple, sums: Sums, out: Gradients, scratch: np.ndarray
+) -> None:
+    """Add the gradients of the splats at ranks span[0]..span[1]-1; scene = (lens, cloud).
+
+    scratch: SCRATCH float32, of any content.
+    """
     lens, cloud = scene
-    scratch = np.empty(SCRATCH, np.float32)
-    for k in range(SCRATCH):
-        scratch[k] = 1  # lanes never filled stay harmless
-    index, inverse = np.empty(LANES, np.int64), np.empty(LANES, np.float32)
+    for k in range(0, SCRATCH, LANES):
+        store8(scratch, k, splat8(np.float32(1)))  # lanes never filled stay harmless
     filled = 0
     for rank in range(span[0], span[1]):
-        fetch(bins.order[min(rank + AHEAD, span[1] - 1)], cloud, out)
+        fetch(bins.order[smaller(rank + AHEAD, span[1] - 1)], cloud, out)
         if add_rows(sums, bins.first_slot[rank], bins.first_slot[rank + 1], scratch):
             i = bins.order[rank]
             out.opacities[i] += scratch[TOTAL] / cloud.opacities[i]
@@ -274,11 +283,13 @@ def gather_gradients(job: int, span: tuple, bins: Bins, scene: tuple, sums: Sums
             square = 0.0
             for k in range(4):
                 square += float(cloud.quats[i, k]) * float(cloud.quats[i, k])
-            index[filled], inverse[filled] = i, 1.0 / math.sqrt(square)
-            collect(scratch, filled, cloud, i, inverse[filled])
+            inverse = np.float32(1.0 / math.sqrt(square))
+            scratch[RANKS + filled], scratch[INVERSES + filled] = rank - span[0], inverse
+            collect(scratch, filled, cloud, i, inverse)
             filled += 1
         if filled == LANES or (rank == span[1] - 1 and filled > 0):
             slopes_of_eight(lens, scratch)
             for lane in range(filled):
-                hand_out(scratch, lane, index[lane], inverse[lane], out, job)
+                i = bins.order[span[0] + np.int64(scratch[RANKS + lane])]
+                hand_out(scratch, lane, i, scratch[INVERSES + lane], out, job)
             filled = 0

@@ -12,12 +12,12 @@ import numpy as np
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.errors import GenmojoError
-from genmojo_core.kernels.threads import run_jobs, run_ranges
-from genmojo_core.render.cpu.backward import Slopes, slope_tiles
+from genmojo_core.kernels.threads import run_jobs, run_ranges, scratch
+from genmojo_core.render.cpu.backward import Slopes, slope_floats, slope_tiles
 from genmojo_core.render.cpu.bins import TILE, Bins, bin_splats, depth_order, gather
-from genmojo_core.render.cpu.forward import Drawing, draw_tiles
+from genmojo_core.render.cpu.forward import Drawing, draw_tiles, drawing_floats
 from genmojo_core.render.cpu.project import GEOMETRY, Cloud, Ellipses, Lens, lens_of, project_range
-from genmojo_core.render.cpu.project_backward import MOMENTS, Gradients, Sums, gather_gradients
+from genmojo_core.render.cpu.project_backward import MOMENTS, SCRATCH, Gradients, Sums, gather_gradients
 from genmojo_core.render.rasterizer import Rendering, Splats
 
 MAX_SLOTS = 16  # channels of one pass, depth included
@@ -182,7 +182,8 @@ def _draw_pass(drawn: Drawn, layout: Layout, ellipses: Ellipses, features: np.nd
         records.ravel(), slots, layout.attached_slots, planes.ravel(), hits, lens.width, lens.height
     )  # fmt: skip
     tiles = bins.tiles_x * bins.tiles_y
-    run_ranges(lambda a, b: draw_tiles(a, b, drawing, bins), tiles, _tile_chunk(bins))
+    floats = drawing_floats(slots)
+    run_ranges(lambda a, b: draw_tiles(a, b, drawing, bins, scratch(floats)), tiles, _tile_chunk(bins))
     return Pass(layout, drawing, planes)
 
 
@@ -202,13 +203,14 @@ def _add_gradients(
     row = -(-(MOMENTS + layout.slots) // 8) * 8
     slopes = Slopes(planes.ravel(), np.empty(len(bins.rank) * row, np.float32), row)
     tiles = bins.tiles_x * bins.tiles_y
-    run_ranges(lambda a, b: slope_tiles(a, b, one.drawing, bins, slopes), tiles, _tile_chunk(bins))
+    floats = slope_floats(layout.slots)
+    run_ranges(lambda a, b: slope_tiles(a, b, one.drawing, bins, slopes, scratch(floats)), tiles, _tile_chunk(bins))
     ranks = len(bins.order)
     sums, scene = Sums(slopes.rows, row, one.drawing.hits, layout.feature_of_slot()), (drawn.lens, drawn.cloud)
 
     def job(index: int) -> None:
         span = (index * SPLATS_PER_JOB, min((index + 1) * SPLATS_PER_JOB, ranks))
-        gather_gradients(index, span, bins, scene, sums, out)
+        gather_gradients(index, span, bins, scene, sums, out, scratch(SCRATCH))
 
     run_jobs(job, -(-ranks // SPLATS_PER_JOB))
 

@@ -14,8 +14,8 @@ from __future__ import annotations
 import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
-from genmojo_core.kernels.simd import fma, load8, splat8, store8
-from genmojo_core.kernels.threads import run_jobs
+from genmojo_core.kernels.simd import fma, load8, smaller, splat8, store8
+from genmojo_core.kernels.threads import run_jobs, scratch
 
 RADIUS = 5
 TAPS = 2 * RADIUS + 1
@@ -35,7 +35,8 @@ def ssim_forward(prediction: np.ndarray, target: np.ndarray) -> tuple[np.ndarray
 
     def job(index: int) -> None:
         b, c = divmod(index, channels)
-        similarity_plane((prediction[b], target[b], out[b]), c, WINDOW, slopes[index].reshape(-1))
+        own = scratch(similarity_floats(width))
+        similarity_plane((prediction[b], target[b], out[b]), c, WINDOW, slopes[index].reshape(-1), own)
 
     run_jobs(job, count * channels)
     return out, slopes
@@ -50,10 +51,22 @@ def ssim_backward(
 
     def job(index: int) -> None:
         b, c = divmod(index, channels)
-        gradient_plane((prediction[b], target[b], upstream[b], out[b]), c, WINDOW, slopes[index].reshape(-1))
+        pictures = (prediction[b], target[b], upstream[b], out[b])
+        gradient_plane(pictures, c, WINDOW, slopes[index].reshape(-1), scratch(gradient_floats(prediction.shape[2])))
 
     run_jobs(job, prediction.shape[0] * channels)
     return out
+
+
+def similarity_floats(width: int) -> int:
+    """Size of the scratch of `similarity_plane`."""
+    wide = -(-width // LANES) * LANES
+    return 3 * wide + 4 * LANES + FIELDS * TAPS * wide
+
+
+def gradient_floats(width: int) -> int:
+    """Size of the scratch of `gradient_plane`."""
+    return (2 + 3 * TAPS) * (-(-(width + 2 * RADIUS) // LANES) * LANES) + 3 * LANES
 
 
 @inlined
@@ -63,53 +76,53 @@ def reflected(i: int, size: int) -> int:
         return 0
     period = 2 * (size - 1)
     i = abs(i) % period
-    return min(i, period - i)
+    return smaller(i, period - i)
 
 
 @inlined
-def blur_row(line: np.ndarray, at: int, window: np.ndarray) -> object:
-    """Average (Float8) of `line` over the window that starts at `at`, for eight neighbouring starts."""
-    total = load8(line, at) * window[0]
+def blur_row(scratch: np.ndarray, at: int, window: np.ndarray) -> object:
+    """Average (Float8) of a row over the window that starts at `at`, for eight neighbouring starts."""
+    total = load8(scratch, at) * window[0]
     for k in range(1, TAPS):
-        total = fma(window[k], load8(line, at + k), total)
+        total = fma(window[k], load8(scratch, at + k), total)
     return total
 
 
 @inlined
-def blur_products(lines: tuple, at: int, window: np.ndarray, ring: np.ndarray, place: tuple) -> None:
-    """Row averages of x, y, xx, yy, xy at eight pixels, written to the ring's five fields."""
+def blur_products(scratch: np.ndarray, lines: tuple, window: np.ndarray, place: tuple) -> None:
+    """Row averages of x, y, xx, yy, xy at eight pixels, written to the ring's five fields; lines = starts of x, y."""
     zero = splat8(np.float32(0))
     x0, y0, xx, yy, xy = zero, zero, zero, zero, zero
     for k in range(TAPS):
-        x, y, w = load8(lines[0], at + k), load8(lines[1], at + k), window[k]
+        x, y, w = load8(scratch, lines[0] + k), load8(scratch, lines[1] + k), window[k]
         wx, wy = x * w, y * w
         x0, y0 = x0 + wx, y0 + wy
         xx, yy, xy = fma(wx, x, xx), fma(wy, y, yy), fma(wx, y, xy)
     first, step = place
-    store8(ring, first, x0)
-    store8(ring, first + step, y0)
-    store8(ring, first + 2 * step, xx)
-    store8(ring, first + 3 * step, yy)
-    store8(ring, first + 4 * step, xy)
+    store8(scratch, first, x0)
+    store8(scratch, first + step, y0)
+    store8(scratch, first + 2 * step, xx)
+    store8(scratch, first + 3 * step, yy)
+    store8(scratch, first + 4 * step, xy)
 
 
 @inlined
-def blur_column(ring: np.ndarray, row: int, at: int, step: int, window: np.ndarray) -> object:
+def blur_column(scratch: np.ndarray, row: int, at: int, step: int, window: np.ndarray) -> object:
     """Average (Float8) down the ring's eleven rows, the oldest being `row`, of the field whose pixels start at `at`."""
     total = splat8(np.float32(0))
     for k in range(TAPS):
-        total = fma(window[k], load8(ring, at + ((row + k) % TAPS) * step), total)
+        total = fma(window[k], load8(scratch, at + ((row + k) % TAPS) * step), total)
     return total
 
 
 @inlined
-def similarity(ring: np.ndarray, row: int, at: int, step: tuple, window: np.ndarray) -> tuple:
+def similarity(scratch: np.ndarray, row: int, at: int, step: tuple, window: np.ndarray) -> tuple:
     """S and its three derivatives (Float8) at eight pixels."""
     field, line = step
-    mx, my = blur_column(ring, row, at, line, window), blur_column(ring, row, at + field, line, window)
-    sxx = blur_column(ring, row, at + 2 * field, line, window) - mx * mx
-    syy = blur_column(ring, row, at + 3 * field, line, window) - my * my
-    sxy = blur_column(ring, row, at + 4 * field, line, window) - mx * my
+    mx, my = blur_column(scratch, row, at, line, window), blur_column(scratch, row, at + field, line, window)
+    sxx = blur_column(scratch, row, at + 2 * field, line, window) - mx * mx
+    syy = blur_column(scratch, row, at + 3 * field, line, window) - my * my
+    sxy = blur_column(scratch, row, at + 4 * field, line, window) - mx * my
     two, one = np.float32(2), np.float32(1)
     a1, a2 = fma(two, mx * my, C1), fma(two, sxy, C2)
     b1, b2 = mx * mx + my * my + C1, sxx + syy + C2
@@ -122,82 +135,96 @@ def similarity(ring: np.ndarray, row: int, at: int, step: tuple, window: np.ndar
 
 
 @kernel
-def similarity_plane(pictures: tuple, channel: int, window: np.ndarray, slopes: np.ndarray) -> None:
-    """One colour plane: pictures = prediction, target, out, each (H, W, C); slopes (3 * H * W rounded up to 8,)."""
+def similarity_plane(
+    pictures: tuple, channel: int, window: np.ndarray, slopes: np.ndarray, scratch: np.ndarray
+) -> None:  # fmt: skip
+    """One colour plane: pictures = prediction, target, out, each (H, W, C); slopes (3 * H * W rounded up to 8,).
+
+    scratch: `similarity_floats(W)` float32 of any content: a row of x, of y, of S, then the ring.
+    """
     prediction, target, out = pictures
     height, width = prediction.shape[0], prediction.shape[1]
     wide = -(-width // LANES) * LANES
-    x, y, s_row = (
-        np.zeros(wide + 2 * LANES, np.float32),
-        np.zeros(wide + 2 * LANES, np.float32),
-        np.empty(wide, np.float32),
-    )
-    ring = np.empty(FIELDS * TAPS * wide, np.float32)
-    plane = height * wide
+    row_y, row_s = wide + 2 * LANES, 2 * (wide + 2 * LANES)
+    ring, plane = row_s + wide, height * wide
+    for i in range(0, ring, LANES):
+        store8(scratch, i, splat8(np.float32(0)))
     for row in range(-RADIUS, height + RADIUS):
         source = reflected(row, height)
         for i in range(width + 2 * RADIUS):
             column = reflected(i - RADIUS, width)
-            x[i], y[i] = prediction[source, column, channel], target[source, column, channel]
+            scratch[i] = prediction[source, column, channel]
+            scratch[row_y + i] = target[source, column, channel]
         slot = (row + RADIUS) % TAPS
         for at in range(0, wide, LANES):
-            blur_products((x, y), at, window, ring, (slot * wide + at, TAPS * wide))
+            blur_products(scratch, (at, row_y + at), window, (ring + slot * wide + at, TAPS * wide))
         done = row - RADIUS
         if done < 0:
             continue
         for at in range(0, wide, LANES):
-            s, mean, xx, xy = similarity(ring, done % TAPS, at, (TAPS * wide, wide), window)
-            store8(s_row, at, s)
+            s, mean, xx, xy = similarity(scratch, done % TAPS, ring + at, (TAPS * wide, wide), window)
+            store8(scratch, row_s + at, s)
             place = done * wide + at
             store8(slopes, place, mean)
             store8(slopes, plane + place, xx)
             store8(slopes, 2 * plane + place, xy)
         for i in range(width):
-            out[done, i, channel] = s_row[i]
+            out[done, i, channel] = scratch[row_s + i]
 
 
 @inlined
-def fold(line: np.ndarray, width: int) -> None:
+def fold(scratch: np.ndarray, first: int, width: int) -> None:
     """Add what lies on the margins of a row (RADIUS pixels each side, then the row) to its reflected places."""
+    row = first + RADIUS
     for i in range(RADIUS):
-        line[RADIUS + reflected(i - RADIUS, width)] += line[i]
-        line[RADIUS + reflected(width + i, width)] += line[RADIUS + width + i]
+        scratch[row + reflected(i - RADIUS, width)] += scratch[first + i]
+        scratch[row + reflected(width + i, width)] += scratch[row + width + i]
 
 
 @kernel
-def gradient_plane(pictures: tuple, channel: int, window: np.ndarray, slopes: np.ndarray) -> None:
-    """One colour plane: pictures = prediction, target, upstream, out, each (H, W, C); slopes as kept by forward."""
+def gradient_plane(
+    pictures: tuple, channel: int, window: np.ndarray, slopes: np.ndarray, scratch: np.ndarray
+) -> None:  # fmt: skip
+    """One colour plane: pictures = prediction, target, upstream, out, each (H, W, C); slopes as kept by forward.
+
+    scratch: `gradient_floats(W)` float32 of any content: a row, its folded average, then the ring.
+    """
     prediction, target, upstream, out = pictures
     height, width = prediction.shape[0], prediction.shape[1]
     wide = -(-width // LANES) * LANES
     long = -(-(width + 2 * RADIUS) // LANES) * LANES  # a row with both margins
-    line = np.zeros(long + 3 * LANES, np.float32)
-    ring = np.zeros(3 * TAPS * long, np.float32)
-    folded = np.empty(long, np.float32)
+    folded = long + 3 * LANES
+    ring = folded + long
+    for i in range(0, ring + 3 * TAPS * long, LANES):
+        store8(scratch, i, splat8(np.float32(0)))
     for row in range(height):
         for i in range(width):
             out[row, i, channel] = 0
     for row in range(-RADIUS, height + RADIUS):
         newest = row + RADIUS  # the row of the picture that enters the window now
+        source = reflected(row, height)
         for f in range(3):
-            at = (f * TAPS + newest % TAPS) * long
-            if newest >= height:
-                for i in range(long):
-                    ring[at + i] = 0
-                continue
-            for i in range(width):
-                line[2 * RADIUS + i] = upstream[newest, i, channel] * slopes[(f * height + newest) * wide + i]
+            at = ring + (f * TAPS + newest % TAPS) * long
+            for i in range(width if newest < height else 0):
+                scratch[2 * RADIUS + i] = upstream[newest, i, channel] * slopes[(f * height + newest) * wide + i]
             for i in range(0, long, LANES):
-                store8(ring, at + i, blur_row(line, i, window))
-        target_row = reflected(row, height)
-        for f in range(3):
+                store8(scratch, at + i, blur_row(scratch, i, window) if newest < height else splat8(np.float32(0)))
             for i in range(0, long, LANES):
-                store8(folded, i, blur_column(ring, (newest + 1) % TAPS, f * TAPS * long + i, long, window))
-            fold(folded, width)
-            for i in range(width):
-                factor = np.float32(1)
-                if f == 1:
-                    factor = np.float32(2) * prediction[target_row, i, channel]
-                elif f == 2:
-                    factor = target[target_row, i, channel]
-                out[target_row, i, channel] += factor * folded[RADIUS + i]
+                average = blur_column(scratch, (newest + 1) % TAPS, ring + f * TAPS * long + i, long, window)
+                store8(scratch, folded + i, average)
+            fold(scratch, folded, width)
+            add_row((prediction, target, out), (source, channel, f), scratch, folded + RADIUS)
+
+
+@inlined
+def add_row(pictures: tuple, place: tuple, scratch: np.ndarray, first: int) -> None:
+    """Add one field's part of a row of the gradient: times 1, 2 x or y."""
+    prediction, target, out = pictures
+    row, channel, f = place
+    for i in range(prediction.shape[1]):
+        factor = np.float32(1)
+        if f == 1:
+            factor = np.float32(2) * prediction[row, i, channel]
+        elif f == 2:
+            factor = target[row, i, channel]
+        out[row, i, channel] += factor * scratch[first + i]

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
-from genmojo_core.kernels.simd import fma, load8, store8
+from genmojo_core.kernels.simd import fma, larger, load8, smaller, store8
 
 LANES = 8
 
@@ -18,10 +18,10 @@ LANES = 8
 @inlined
 def cell(position: float, nodes: int) -> tuple:
     """The two nodes beside a coordinate in -1..1 and the share of the second; not a number counts as -1."""
-    x = (float(position) + 1.0) * 0.5 * (nodes - 1)
-    x = min(x, nodes - 1.0) if x > 0 else 0.0
-    first = min(int(x), max(nodes - 2, 0))
-    return first, min(first + 1, nodes - 1), np.float32(x - first)
+    x = (position + 1.0) * 0.5 * (nodes - 1)
+    x = smaller(x, nodes - 1) if x > 0 else 0.0
+    first = smaller(np.int64(x), larger(nodes - 2, 0))
+    return first, smaller(first + 1, nodes - 1), np.float32(x - first)
 
 
 @inlined
@@ -32,8 +32,8 @@ def corners(coords: np.ndarray, point: int, plane: int, shape: tuple) -> tuple:
     """
     nodes, channels = shape
     across, down = (0 if plane < 2 else 1), (1 if plane == 0 else 2)
-    c0, c1, fx = cell(coords[point, across], nodes)
-    r0, r1, fy = cell(coords[point, down], nodes)
+    c0, c1, fx = cell(np.float64(coords[point, across]), nodes)
+    r0, r1, fy = cell(np.float64(coords[point, down]), nodes)
     upper, lower = (plane * nodes + r0) * nodes, (plane * nodes + r1) * nodes
     return (upper + c0) * channels, (upper + c1) * channels, (lower + c0) * channels, (lower + c1) * channels, fx, fy
 
@@ -119,7 +119,7 @@ def slope_lines(time: float, shape: tuple, lines: np.ndarray, out: np.ndarray) -
 @inlined
 def ends(coords: np.ndarray, point: int, axis: int, nodes: int, channels: int) -> tuple:
     """Places of the two nodes of line `axis` beside a point, and the share of the second."""
-    first, second, share = cell(coords[point, axis], nodes)
+    first, second, share = cell(np.float64(coords[point, axis]), nodes)
     return (axis * nodes + first) * channels, (axis * nodes + second) * channels, share
 
 
