@@ -1,0 +1,124 @@
+"""Whatever ends the worker: the window lives, knows why in less than two seconds, and the run can go on."""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+import time
+
+import pytest
+
+from genmojo_studio.worker import death
+from tests.worker.driving import fake_request, watched
+
+pytestmark = pytest.mark.skipif(os.name == "nt", reason="POSIX signals")
+KNOWN_WITHIN = 2.0
+
+
+@pytest.fixture(autouse=True)
+def _own_runs(tmp_path, monkeypatch):
+    monkeypatch.setenv("GENMOJO_RUNS", str(tmp_path / "runs"))
+
+
+def end_and_resume(run_dir, fault, at):
+    """Run until a fault at a step; the report; then resume to the end. Kills come from outside at that step."""
+    inside = fault if fault not in ("killed", "shot") else ""
+    options = {"steps": 60, "step_seconds": 0.004, "fault": inside, "at": at}
+    with watched() as window:
+        window.client.start(fake_request(run_dir, **options))
+        if not inside:
+            window.until(lambda: window.steps() >= at)
+            os.kill(window.client._process.pid, signal.SIGKILL if fault == "killed" else signal.SIGSEGV)
+        else:
+            window.until(lambda: window.steps() >= at)
+        ended = time.monotonic()
+        window.until(lambda: window.reports, 10)
+        took = time.monotonic() - ended
+        (report,) = window.reports
+        assert took < KNOWN_WITHIN and window.client.state == "failed" and report.final
+        assert report.title and report.advice and not window.client._line.is_open
+        assert report.checkpoint == (run_dir / "checkpoint.json").exists()
+        steps_before = window.steps()
+        if report.checkpoint:
+            window.client.resume_run(run_dir)
+            window.until_state("done", 30)
+            after = [e for e in window.events if e["event"] == "Step"][steps_before:]
+            assert after and len(after) >= 60 - steps_before and (run_dir / "scene.h5").exists()
+    return report
+
+
+KINDS = {"killed": "killed", "shot": "segfault", "segfault": "segfault", "memory": "memory", "exception": "exception",
+         "input": "input", "exit": "exception"}  # fmt: skip
+
+
+@pytest.mark.parametrize("fault", KINDS)
+def test_each_end_is_named(tmp_path, fault):
+    report = end_and_resume(tmp_path, fault, 15)
+    assert report.kind == KINDS[fault]
+    if fault == "exception":
+        assert "ZeroDivisionError" in report.title and "_spoil" in report.detail
+    if fault in ("shot", "segfault"):
+        assert "SIGSEGV" in report.title and "Segmentation fault" in report.detail
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("fault", ["killed", "shot", "memory", "exception"])
+def test_twenty_random_points(tmp_path, fault):
+    dice = random.Random(fault)
+    for i in range(20):
+        folder = tmp_path / str(i)
+        folder.mkdir()
+        assert end_and_resume(folder, fault, dice.randint(0, 55)).kind == KINDS[fault]
+
+
+def test_death_while_loading_is_named_too(tmp_path):
+    """Before it could say a word: a program that is not there, and one that is killed at once."""
+    with watched(["/bin/sh", "-c", "echo cannot find torch >&2; exit 7"]) as window:
+        window.client.start(fake_request(tmp_path))
+        window.until(lambda: window.reports)
+        assert window.reports[0].kind == "start" and "cannot find torch" in window.reports[0].detail
+
+
+def test_a_stopped_worker_is_named_and_may_come_back(tmp_path):
+    """SIGSTOP: after 5 s of missed heartbeats it counts as lost; woken again it goes on."""
+    with watched() as window:
+        window.client.start(fake_request(tmp_path, steps=100_000))
+        window.until(lambda: window.steps() > 3)
+        pid = window.client._process.pid
+        os.kill(pid, signal.SIGSTOP)
+        took = window.until_state("lost", 12)
+        assert 4.0 < took < 8.0
+        (report,) = window.reports
+        assert report.kind == "hang" and not report.final and "Wait" in report.advice
+        os.kill(pid, signal.SIGCONT)
+        window.until_state("running", 5)
+        assert window.answer(window.client.pause()) == (True, "paused")
+
+
+def test_an_announced_compile_is_no_hang(tmp_path):
+    """Seven seconds of a compiler holding the interpreter, announced: nobody calls it lost."""
+    with watched() as window:
+        window.client.start(fake_request(tmp_path, steps=40, fault="compile", at=5))
+        window.until_state("done", 30)
+        assert not window.reports and "lost" not in window.states
+
+
+def test_a_hung_worker_can_be_ended_and_resumed(tmp_path):
+    with watched() as window:
+        window.client.start(fake_request(tmp_path, steps=60, fault="hang", at=15))
+        window.until_state("lost", 15)
+        window.client.kill()
+        window.until_state("failed", 5)
+        assert [r.kind for r in window.reports] == ["hang", "killed"] and window.reports[1].checkpoint
+        window.client.resume_run(tmp_path)
+        window.until_state("done", 15)
+
+
+def test_a_kill_when_memory_was_short_is_called_that(tmp_path):
+    beat = {"rss_mb": 7000.0, "available_mb": 200.0, "total_mb": 8000.0, "step": 12}
+    report = death.classify(tmp_path, -9, beat, True, 1)
+    assert report.kind == "memory" and "6.8 GB" in report.title and "draft" in report.advice and report.step == 12
+    assert death.classify(tmp_path, -9, {**beat, "available_mb": 4000.0}, True, 1).kind == "killed"
+    (tmp_path / "fault.log").write_text("Fatal Python error: Segmentation fault")
+    assert death.classify(tmp_path, None, {}, True, 1).kind == "segfault"  # another window's child: only the log tells
