@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -53,9 +53,10 @@ def make_prior(folder: Path, times: Times, hear: Callable[[str, Progress], None]
 
         return tell
 
-    for task, seconds in ((VolumeTask(volume), times.volume), (DenoiserTask(denoiser, volume), times.denoiser)):
-        plan = TrainingPlan(seconds, times.objects, seed=times.seed, device=times.device)
-        train(task, folder, plan, report(task.name))
+    plan = TrainingPlan(times.volume, times.objects, seed=times.seed, device=times.device)
+    train(VolumeTask(volume), folder, plan, report("volume"))
+    plan = replace(plan, seconds=times.denoiser)
+    train(DenoiserTask(denoiser, volume), folder, plan, report("denoiser"))  # freezes the volume
     prior = EmbeddedPrior(volume.cpu(), denoiser.cpu())
     path = folder / weights.SHIPPED.name
     weights.write(path, prior, description(prior, times, steps))
