@@ -15,13 +15,12 @@ import numpy as np
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
+from genmojo_core.trackers.affine import applied, joined, robust_affine
 from genmojo_core.trackers.search import best_shifts
 from genmojo_core.trackers.stabilise import Grid, Layer, Link, Matcher, flat_shade, grid_of
 
 _STEPS = (1, 2, 4)  # frames between the ends of a link
 _SCRAP = 0.4  # of the largest area: less than this is no ground to leave the expected place
-_HOLD = 0.01  # weight of the fallback affine, as a share of the object's places
-_THIN = 0.3  # an affine flatter than this is taken for a wrong match
 _HIDDEN = 0.2  # confidence of a place that only the object's affine motion predicts
 
 
@@ -118,13 +117,13 @@ def _carried(thing: _Object, s: int, t: int, xy: np.ndarray, conf: np.ndarray) -
     link, affine = pair
     cells = ((xy - grid.xy[0, 0]) / grid.step).astype(np.float32)[:, None]
     weight = cv2.remap(link.weight, cells, None, cv2.INTER_LINEAR)[:, 0].astype(np.float64)
-    rest = (link.xy - _applied(affine, grid.xy)).astype(np.float32) * link.weight[..., None]
+    rest = (link.xy - applied(affine, grid.xy)).astype(np.float32) * link.weight[..., None]
     sigma = max(1.5, 0.03 * max(grid.inside.shape))
     amount = cv2.GaussianBlur(link.weight, (0, 0), sigma)
     smooth = cv2.GaussianBlur(rest, (0, 0), sigma) / np.maximum(amount, 1e-3)[..., None]
     near = cv2.remap(smooth, cells, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)[:, 0]
     reliable = np.clip(3.0 * cv2.remap(amount, cells, None, cv2.INTER_LINEAR)[:, 0], 0.0, 1.0)[:, None]
-    place = _applied(affine, xy) + near * reliable
+    place = applied(affine, xy) + near * reliable
     unseen = _HIDDEN * np.clip(3.0 * link.score, 0.01, 1.0)  # never 0: some link must be believed
     return place, np.maximum(weight, unseen) * np.maximum(conf, 0.05)
 
@@ -152,7 +151,7 @@ def _matched(thing: _Object, s: int, t: int) -> tuple[Link, np.ndarray] | None:
     if grid is None or thing.grids[t] is None:
         return None
     start = _chain(thing, s, t)
-    predicted = _applied(start, grid.xy)
+    predicted = applied(start, grid.xy)
     best = thing.matcher.link(thing.layer, grid, t, predicted)
     areas = thing.layer.mask[[s, t]].sum(axis=(1, 2))
     scrap = areas.min() < _SCRAP * thing.area
@@ -161,10 +160,10 @@ def _matched(thing: _Object, s: int, t: int) -> tuple[Link, np.ndarray] | None:
         tried = thing.matcher.link(thing.layer, grid, t, (predicted + shift).astype(np.float32))
         if tried.score / (1.0 + float(shift @ shift) / size**2) > best.score:
             best = tried
-    affine = _robust_affine(grid, best, start)
-    again = thing.matcher.link(thing.layer, grid, t, _applied(affine, grid.xy))
+    affine = robust_affine(grid, best, start)
+    again = thing.matcher.link(thing.layer, grid, t, applied(affine, grid.xy))
     if again.score >= best.score:
-        best, affine = again, _robust_affine(grid, again, affine)
+        best, affine = again, robust_affine(grid, again, affine)
     return best, affine
 
 
@@ -174,41 +173,6 @@ def _chain(thing: _Object, s: int, t: int) -> np.ndarray:  # (2, 3)
     middle = t - direction
     first, second = thing.links.get((s, middle)), thing.links.get((middle, t))
     if middle != s and first is not None and second is not None:
-        return _joined(second[1], first[1])
+        return joined(second[1], first[1])
     before = thing.links.get((s - direction, s))
     return before[1] if middle == s and before is not None else np.eye(2, 3)
-
-
-def _joined(outer: np.ndarray, inner: np.ndarray) -> np.ndarray:
-    """The affine (2, 3) that applies `inner`, then `outer`."""
-    return outer @ np.vstack([inner, [0.0, 0.0, 1.0]])
-
-
-def _applied(affine: np.ndarray, xy: np.ndarray) -> np.ndarray:
-    """An affine (2, 3) of places (..., 2); float32 stays float32."""
-    return (xy @ affine[:, :2].T + affine[:, 2]).astype(xy.dtype)
-
-
-def _robust_affine(grid: Grid, link: Link, fallback: np.ndarray) -> np.ndarray:  # (2, 3)
-    """Affine of a link by reweighted least squares, held to the fallback where few places match."""
-    rows, cols = np.nonzero(link.weight > 0.05)
-    if len(rows) < 8:
-        return fallback
-    source, target = grid.xy[rows, cols].astype(np.float64), link.xy[rows, cols].astype(np.float64)
-    weight = link.weight[rows, cols].astype(np.float64)
-    middle = np.average(source, axis=0, weights=weight)
-    spread = max(float(np.sqrt(np.average((source - middle) ** 2, axis=0, weights=weight).sum())), 1e-6)
-    design = np.concatenate([(source - middle) / spread, np.ones((len(source), 1))], axis=1)
-    held = np.vstack([(fallback[:, :2] * spread).T, _applied(fallback, middle)])
-    ridge = np.diag([1.0, 1.0, 0.05]) * _HOLD * float(grid.inside.sum())
-    solution, pull = held, weight
-    for _ in range(6):
-        solution = np.linalg.solve(design.T @ (design * pull[:, None]) + ridge + 1e-9 * np.eye(3),
-                                   design.T @ (target * pull[:, None]) + ridge @ held)  # fmt: skip
-        error = np.linalg.norm(design @ solution - target, axis=1)
-        pull = weight / (1.0 + (error / 1.5) ** 2) ** 2
-    linear = solution[:2].T / spread
-    sizes = np.linalg.svd(linear, compute_uv=False)
-    if sizes[1] < _THIN * sizes[0] or not 0.4 < sizes[0] < 2.5:
-        return fallback
-    return np.concatenate([linear, (solution[2] - linear @ middle)[:, None]], axis=1)

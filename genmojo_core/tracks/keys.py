@@ -25,6 +25,7 @@ from genmojo_core.tracks.edits import CellsChange, Edit, cells_change, join
 from genmojo_core.tracks.interpolate import between, carried
 from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
 
+GAP = 3  # frames between two visits that are taken to go on as both of them
 STATE_NAMES = {NONE: "not annotated", VISIBLE: "visible", OCCLUDED: "occluded", OUT_OF_VIEW: "out of view"}
 
 
@@ -102,17 +103,21 @@ def set_uncertain(annotation: Annotation, track: int, first: int, last: int, on:
 def confirm(annotation: Annotation, tracks: list[int], t: int, on: bool = True) -> Edit:
     """A person looked at these points in frame t and accepts them as they are (or takes that back).
 
-    Points without a state and locked tracks are left out.
+    Up to GAP frames between two accepted ones that have the same state take that state too: a point does not vanish
+    for a frame between two visits. Points without a state and locked tracks are left out.
     """
     changes = []
     for track in tracks:
-        if annotation.tracks[track].locked:
+        frames = np.arange(max(t - GAP - 1, 0), min(t + GAP + 2, annotation.frames))
+        cells, here = annotation.cells(track, frames), int(t - frames[0])
+        if cells.state[here] == NONE or annotation.tracks[track].locked:
             continue
-        cells = annotation.cells(track, np.array([t]))
-        if cells.state[0] != NONE:
-            flags = cells.flags | CONFIRMED if on else cells.flags & (0xFF ^ CONFIRMED)
-            new = Cells(cells.xy, cells.state, flags, cells.source, cells.conf, cells.mode)
-            changes.append(cells_change(annotation, track, np.array([t]), new))
+        if on:
+            cells.flags[here] |= CONFIRMED
+            _close_gaps(cells, here)
+        else:
+            cells.flags[here] &= 0xFF ^ CONFIRMED
+        changes.append(cells_change(annotation, track, frames, cells))
     made = tuple(c for c in changes if c is not None)
     title = f"{'Accept' if on else 'Reopen'} {len(made)} points"
     return Edit("confirm", title, made, t, made[0].track if made else None)
@@ -169,6 +174,16 @@ def accept(annotation: Annotation, proposals: dict[int, Proposal], source: int) 
     name = next(iter(proposals.values())).tracker if proposals else "nothing"
     made = [part for part in parts if part.changes]
     return join("seed", f"Seed {len(made)} tracks by {name}", made)
+
+
+def _close_gaps(cells: Cells, here: int) -> None:
+    """Frames between an accepted one and the next accepted ones on either side take their common state."""
+    sure = np.flatnonzero(_protected(cells))
+    for other in (sure[sure < here][-1:], sure[sure > here][:1]):
+        if len(other) and cells.state[other[0]] == cells.state[here]:
+            between_them = slice(min(int(other[0]), here) + 1, max(int(other[0]), here))
+            free = (cells.flags[between_them] & PAINTED) == 0
+            cells.state[between_them][free & (cells.state[between_them] != NONE)] = cells.state[here]
 
 
 def _open(annotation: Annotation, track: int, first: int, last: int) -> Cells:

@@ -1,0 +1,190 @@
+"""Seeds and re-solves the tracks of an annotation from the pixels of its clip (ANNOTATOR.md section 6.3).
+
+solver = TrackSolver(clip)                                # the clip at 540 pixels on the short side or less
+request = SolveRequest.of(annotation, object_id)          # copies; on the thread that owns the annotation
+answer = solver.answer(request)                           # slow; on any one thread
+project.do(answer.edit(annotation), step=step_of_the_key)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from genmojo_core.clip.clip import Clip
+from genmojo_core.errors import GenmojoError
+from genmojo_core.tracks import keys
+from genmojo_core.tracks.annotation import CONFIRMED, KEY, TRACKER, Annotation, Cells
+from genmojo_core.tracks.edits import Edit, join
+from genmojo_core.tracks.model import NONE
+from genmojo_core.trackers.object_motion import ObjectMotion
+from genmojo_core.trackers.segment_solver import SPANS, solve_points
+from genmojo_core.trackers.stabilise import Layer, flat_shade
+from genmojo_core.trackers.visibility import states_of
+
+SHORT_SIDE = 540  # held px from which more only costs time
+_SLACK = 4.0  # source px at 1080p by which a link may miss a key before it is matched again
+
+
+@dataclass(frozen=True)
+class SolveRequest:
+    """What a solution needs to know; no view of the annotation.
+
+    Args:
+        object_id: whose tracks. size: (width, height) of the source.
+        tracks: ids (n,). cells: all T frames of each, copied.
+        key: (track, frame) of the key to answer; None to seed everything.
+    """
+
+    object_id: int
+    size: tuple[int, int]
+    tracks: tuple[int, ...]
+    cells: tuple[Cells, ...]
+    key: tuple[int, int] | None
+
+    @staticmethod
+    def of(annotation: Annotation, object_id: int, key: tuple[int, int] | None = None) -> SolveRequest:
+        """The tracks of an object that have a key."""
+        ids = tuple(i.id for i in annotation.tracks_of(object_id) if len(annotation.keys(i.id)))
+        return SolveRequest(object_id, annotation.size, ids, tuple(annotation.track(i).copy() for i in ids), key)
+
+
+@dataclass(frozen=True)
+class SolveAnswer:
+    """Cells found: track -> (frames (m,), Cells of m); `seconds` of process time."""
+
+    request: SolveRequest
+    found: dict[int, tuple[np.ndarray, Cells]]
+
+    def edit(self, annotation: Annotation) -> Edit:
+        """One machine's edit; tracks whose keys changed since they were asked about are left as they are."""
+        parts = []
+        for track, (frames, cells) in self.found.items():
+            asked = self.request.cells[self.request.tracks.index(track)]
+            if track in annotation.tracks and _same_keys(annotation.track(track), asked):
+                parts.append(keys.solved(annotation, track, frames, cells))
+        made = [part for part in parts if part.changes]
+        title = made[0].title if len(made) == 1 else f"Solve {len(made)} tracks"
+        return join("solve", title, made)
+
+
+class TrackSolver:
+    """Solves tracks inside objects' masks. Keeps what it matched, so later answers are quick. One thread at a time.
+
+    Args:
+        clip: with masks; held at about SHORT_SIDE pixels.
+    Raises GenmojoError("schema") if the clip has no masks.
+    """
+
+    def __init__(self, clip: Clip) -> None:
+        if clip.masks is None:
+            raise GenmojoError("schema", "has no masks, and points are tracked inside them", clip.path,
+                               "give masks or boxes")  # fmt: skip
+        self._clip = clip
+        self._shade: np.ndarray | None = None
+        self._motions: dict[int, ObjectMotion] = {}
+        self.scale = np.array(clip.size, np.float64) / np.array(clip.source_size, np.float64)  # source -> held px
+
+    def answer(
+        self,
+        request: SolveRequest,
+        progress: Callable[[float], None] | None = None,
+        cancelled: Callable[[], bool] | None = None,
+    ) -> SolveAnswer:
+        """Positions and states of the request's tracks: all frames when seeding, else the segments next to the key,
+        and of the object's other tracks what a corrected match changes.
+
+        Raises GenmojoError("argument") if the clip has no such object.
+        """
+        if not request.tracks:
+            return SolveAnswer(request, {})
+        motion = self._motion(request.object_id)
+        xy = np.stack([c.xy for c in request.cells]).astype(np.float64) * self.scale
+        fixed = np.stack([(c.flags & (KEY | CONFIRMED)) > 0 for c in request.cells])
+        known = np.stack([c.state != NONE for c in request.cells])
+        rows, first, end = list(range(len(xy))), 0, len(self._clip)
+        if request.key is None:
+            xy = _chained(motion, xy, known, fixed, progress, cancelled)
+        else:
+            row, t = request.tracks.index(request.key[0]), request.key[1]
+            relinked = self._relink(motion, xy, fixed, t)
+            first, end = (max(t - max(SPANS), 0), end) if relinked else _segments(request.cells[row], t)
+            rows = rows if relinked else [row]
+        xy[rows] = solve_points(motion, xy[rows], fixed[rows], first, end)
+        return SolveAnswer(request, self._cells(motion, request, xy, fixed, (rows, first, end)))
+
+    def _relink(self, motion: ObjectMotion, xy: np.ndarray, fixed: np.ndarray, t: int) -> bool:
+        """Match again what contradicts the places people are sure of in frame t and in frames around it."""
+        slack = _SLACK * self._clip.size[1] / 1080.0
+        changed = False
+        for s in [t + sign * span for span in SPANS for sign in (-1, 1)]:
+            if 0 <= s < motion.frames and (both := fixed[:, s] & fixed[:, t]).any():
+                changed |= motion.relink(s, t, xy[both, s], xy[both, t], slack)
+                changed |= motion.relink(t, s, xy[both, t], xy[both, s], slack)
+        return changed
+
+    def _cells(
+        self, motion: ObjectMotion, request: SolveRequest, xy: np.ndarray, fixed: np.ndarray,
+        what: tuple[list[int], int, int],
+    ) -> dict[int, tuple[np.ndarray, Cells]]:  # fmt: skip
+        """The solved frames as cells in source pixels."""
+        rows, first, end = what
+        frames = np.arange(first, end)
+        found = {}
+        for row in rows:
+            state, conf = states_of(motion, xy[row], request.cells[row], self._clip.size)
+            source = np.full(len(frames), TRACKER, np.uint8)
+            none = np.zeros(len(frames), np.uint8)
+            place = (xy[row, frames] / self.scale).astype(np.float32)
+            found[request.tracks[row]] = (frames, Cells(place, state[frames], none, source, conf[frames], none))
+        return found
+
+    def _motion(self, object_id: int) -> ObjectMotion:
+        """The object's links, made when first asked for."""
+        if object_id not in self._motions:
+            at = np.flatnonzero(self._clip.object_ids == object_id)
+            if not len(at):
+                raise GenmojoError("argument", f"has no object {object_id} to track", self._clip.path)
+            if self._shade is None:
+                self._shade = np.stack([flat_shade(frame) for frame in self._clip.frames])
+            mask = self._clip.object_mask(int(at[0]))
+            other = (self._clip.masks.value > 0) & ~mask  # type: ignore[union-attr]
+            self._motions[object_id] = ObjectMotion(Layer(self._shade, mask, other))
+        return self._motions[object_id]
+
+
+def _chained(
+    motion: ObjectMotion, xy: np.ndarray, known: np.ndarray, fixed: np.ndarray,
+    progress: Callable[[float], None] | None, cancelled: Callable[[], bool] | None,
+) -> np.ndarray:  # (n, T, 2)  # fmt: skip
+    """First places where there is none yet: every frame from its neighbour towards the nearest sure one."""
+    out = xy.copy()
+    frames = motion.frames
+    sure = [np.flatnonzero(f & k) for f, k in zip(fixed, known, strict=True)]
+    begin = min((int(s[0]) for s in sure if len(s)), default=0)
+    order = [*range(begin + 1, frames), *range(begin - 1, -1, -1)]
+    for count, t in enumerate(order):
+        s = t - 1 if t > begin else t + 1
+        rows = np.flatnonzero(~fixed[:, t])
+        carried = motion.carry(s, t, out[rows, s]) if len(rows) else None
+        out[rows, t] = out[rows, s] if carried is None else carried[0]
+        if progress is not None:
+            progress((count + 1) / (2 * len(order)))
+        if cancelled is not None and cancelled():
+            raise GenmojoError("argument", "was cancelled", "seeding")
+    return out
+
+
+def _segments(cells: Cells, t: int) -> tuple[int, int]:
+    """First frame and end of the two segments next to a key."""
+    found = np.flatnonzero(cells.flags & KEY)
+    before, after = found[found < t], found[found > t]
+    return int(before[-1]) if len(before) else 0, int(after[0]) + 1 if len(after) else len(cells)
+
+
+def _same_keys(now: Cells, then: Cells) -> bool:
+    """Whether no key was placed, moved or deleted since."""
+    mine, theirs = (now.flags & KEY) > 0, (then.flags & KEY) > 0
+    return bool(np.array_equal(mine, theirs) and np.array_equal(now.xy[mine], then.xy[theirs]))
