@@ -257,36 +257,6 @@ def min8(typingctx: Any, a: types.Type, b: types.Type) -> Any:
     return Float8(a, b), codegen
 
 
-def _scalars(context: Any, builder: ir.IRBuilder, signature: Any, values: Any) -> list[ir.Value]:
-    """Two numbers cast to the type of the result."""
-    kind = signature.return_type
-    return [context.cast(builder, v, t, kind) for t, v in zip(signature.args, values, strict=True)]
-
-
-def _choice(symbol: str, a: types.Type, b: types.Type) -> Any:
-    """Signature and code of `a if a symbol b else b` on two scalars, int64 or float64."""
-    kind = types.int64 if isinstance(a, types.Integer) and isinstance(b, types.Integer) else types.float64
-
-    def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        a, b = _scalars(context, builder, signature, arguments)
-        compare = builder.icmp_signed if kind is types.int64 else builder.fcmp_ordered
-        return builder.select(compare(symbol, a, b), a, b)
-
-    return kind(a, b), codegen
-
-
-@instruction
-def smaller(typingctx: Any, a: types.Type, b: types.Type) -> Any:
-    """The smaller of two numbers as int64 or float64 (b where either is NaN); Python's `min` compiles longer."""
-    return _choice("<", a, b)
-
-
-@instruction
-def larger(typingctx: Any, a: types.Type, b: types.Type) -> Any:
-    """The larger of two numbers as int64 or float64 (b where either is NaN)."""
-    return _choice(">", a, b)
-
-
 @instruction
 def select8(typingctx: Any, mask: types.Type, a: types.Type, b: types.Type) -> Any:
     """a where the mask holds, else b."""

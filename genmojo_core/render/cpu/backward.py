@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
+from genmojo_core.kernels.scalars import smaller
 from genmojo_core.kernels.simd import (
     broadcast8,
     fma,
@@ -29,7 +30,6 @@ from genmojo_core.kernels.simd import (
     min8,
     prefetch,
     select8,
-    smaller,
     splat8,
     store8,
     store_rows,

@@ -14,7 +14,8 @@ import numpy as np
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.kernels.cache import inlined, kernel
-from genmojo_core.kernels.simd import prefetch, smaller
+from genmojo_core.kernels.scalars import smaller
+from genmojo_core.kernels.simd import prefetch
 from genmojo_core.render.cpu.project import GEOMETRY, Ellipses, Lens
 
 TILE = 16  # pixels

@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
+from genmojo_core.kernels.scalars import larger, smaller
 from genmojo_core.kernels.simd import (
     EXP2_FLOATS,
     any_lane,
@@ -27,13 +28,11 @@ from genmojo_core.kernels.simd import (
     broadcast8,
     exp2_8,
     fma,
-    larger,
     load8,
     min8,
     prefetch,
     prepare_exp2,
     select8,
-    smaller,
     splat8,
     store4x2,
     store8,

@@ -20,7 +20,7 @@ import numpy as np
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.kernels.cache import inlined, kernel
-from genmojo_core.kernels.simd import larger, smaller
+from genmojo_core.kernels.scalars import larger, smaller
 from genmojo_core.render.rasterizer import ALPHA_MIN, FRUSTUM_CLAMP
 
 LOG2_E = 1.4426950408889634

@@ -19,7 +19,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
-from genmojo_core.kernels.simd import fma, load8, prefetch, select8, smaller, splat8, store8, store_rows
+from genmojo_core.kernels.scalars import smaller
+from genmojo_core.kernels.simd import fma, load8, prefetch, select8, splat8, store8, store_rows
 from genmojo_core.render.cpu.bins import Bins
 from genmojo_core.render.cpu.project import Cloud, Lens
 

@@ -14,7 +14,8 @@ from __future__ import annotations
 import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
-from genmojo_core.kernels.simd import fma, load8, smaller, splat8, store8
+from genmojo_core.kernels.scalars import smaller
+from genmojo_core.kernels.simd import fma, load8, splat8, store8
 from genmojo_core.kernels.threads import run_jobs, scratch
 
 RADIUS = 5

@@ -10,7 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
-from genmojo_core.kernels.simd import fma, larger, load8, smaller, store8
+from genmojo_core.kernels.scalars import larger, smaller
+from genmojo_core.kernels.simd import fma, load8, store8
 
 LANES = 8
 
