@@ -44,6 +44,23 @@ def colour(
     object_colors: np.ndarray,  # (K, 3)
 ) -> np.ndarray:  # (H, W, 3) uint8
     """Sums over a backdrop as the RESOLVE shader colours them."""
+    rgb, alpha = _premultiplied(sums, mode, bounds, object_colors)
+    return (np.clip(rgb + (1 - alpha) * np.asarray(backdrop, np.float32), 0, 1) * 255 + 0.5).astype(np.uint8)
+
+
+def straight_rgba(
+    sums: np.ndarray, mode: Mode, bounds: tuple[float, float], object_colors: np.ndarray
+) -> np.ndarray:  # (H, W, 4) uint8
+    """Sums without a backdrop: colours divided by coverage, as PNG wants them."""
+    rgb, alpha = _premultiplied(sums, mode, bounds, object_colors)
+    rgba = np.concatenate([rgb / np.maximum(alpha, LEAST), alpha], axis=-1)
+    return (np.clip(rgba, 0, 1) * 255 + 0.5).astype(np.uint8)
+
+
+def _premultiplied(
+    sums: np.ndarray, mode: Mode, bounds: tuple[float, float], object_colors: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Colours times coverage (H, W, 3), and the coverage that is shown (H, W, 1)."""
     alpha = sums[..., 3:]
     mean = sums[..., :3] / np.maximum(alpha, LEAST)
     rgb = sums[..., :3]
@@ -59,8 +76,7 @@ def colour(
     elif mode == Mode.INSTANCE:
         alpha = (alpha > 0.5).astype(np.float32)
         rgb = object_colors[sums[..., 0].astype(np.int64)] * alpha
-    shown = rgb + (1 - alpha) * np.asarray(backdrop, np.float32)
-    return (np.clip(shown, 0, 1) * 255 + 0.5).astype(np.uint8)
+    return rgb, alpha
 
 
 def flow_wheel(flow: np.ndarray, most: float) -> np.ndarray:  # (..., 2) px -> (..., 3)

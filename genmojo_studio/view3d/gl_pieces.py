@@ -9,6 +9,13 @@ import numpy as np
 from genmojo_core.clip.cameras import View
 from genmojo_core.render.rasterizer import FRUSTUM_CLAMP
 
+SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software", "gdi generic")  # parts of such renderers' names
+
+
+def is_software(renderer: str) -> bool:
+    """Is this GL_RENDERER a program on the processor?"""
+    return any(part in renderer.lower() for part in SOFTWARE)
+
 
 def jacobian_limits(view: View) -> tuple[float, float, float, float]:
     """Lowest and highest u, lowest and highest v at which the projection's Jacobian is taken (render/rasterizer.py)."""

@@ -16,7 +16,15 @@ from genmojo_core.clip.cameras import View
 from genmojo_core.errors import GenmojoError
 from genmojo_studio.view3d import shaders
 from genmojo_studio.view3d.colouring import palette_rgb, value_bounds
-from genmojo_studio.view3d.gl_pieces import bind, jacobian_limits, matrix, release_target, set_uniform, straight
+from genmojo_studio.view3d.gl_pieces import (
+    bind,
+    is_software,
+    jacobian_limits,
+    matrix,
+    release_target,
+    set_uniform,
+    straight,
+)
 from genmojo_studio.view3d.look import Look, Mode, ObjectTable, object_table
 from genmojo_studio.view3d.orbit import next_pose
 from genmojo_studio.view3d.order import EXACT_UP_TO, Sorter, back_to_front
@@ -24,7 +32,6 @@ from genmojo_studio.view3d.quality import FULL, Picture, Quality
 from genmojo_studio.view3d.scene_textures import TEXELS, SceneTextures, nearest, rows_of
 from genmojo_studio.view3d.snapshot import SceneSnapshot
 
-SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software", "gdi generic")  # parts of such renderers' names
 _VALUE = {  # what PROJECT puts into a splat's channels
     Mode.RGB: 0, Mode.ELLIPSOIDS: 0, Mode.CENTRES: 0, Mode.OPACITY: 0, Mode.INSTANCE_SOFT: 1, Mode.DEPTH: 2,
     Mode.DEPTH_MEDIAN: 2, Mode.FLOW: 3, Mode.NORMAL: 4, Mode.RESIDUAL: 5,
@@ -52,7 +59,7 @@ class SplatRenderer:
             raise GenmojoError("missing_package", offered, "3D view", "the processor draws instead")
         self.ctx = ctx
         self.name = str(ctx.info["GL_RENDERER"])
-        self.is_software = any(part in self.name.lower() for part in SOFTWARE)
+        self.is_software = is_software(self.name)
         self.exact_up_to = exact_up_to
         self.order_is_exact = True
         self._project = ctx.program(shaders.WHOLE_TARGET, shaders.PROJECT)

@@ -1,0 +1,338 @@
+"""The 3D view as other parts of the app use it: a scene, a time, a look, a place to look from.
+
+`SceneView` holds a surface (OpenGL, or the processor where that is missing or itself a program) and an overlay, turns
+the mouse into orbits, and draws on demand only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from PySide6.QtCore import QEasingCurve, QEvent, QObject, QPointF, Qt, QTimer, QVariantAnimation, Signal
+from PySide6.QtGui import QCloseEvent, QMouseEvent, QResizeEvent, QWheelEvent
+from PySide6.QtWidgets import QWidget
+
+from genmojo_core.clip.cameras import View
+from genmojo_core.errors import GenmojoError
+from genmojo_studio.view3d import navigation
+from genmojo_studio.view3d.cpu_view import CpuView
+from genmojo_studio.view3d.frames import FrameReport, FrameRequest
+from genmojo_studio.view3d.gl_probe import GlKind, probe
+from genmojo_studio.view3d.look import Look, Mode
+from genmojo_studio.view3d.orbit import PRESETS, Orbit, Reference, between, reference_of
+from genmojo_studio.view3d.overlay import Overlay, Paint
+from genmojo_studio.view3d.picking import Pick, pick
+from genmojo_studio.view3d.snapshot import SceneSnapshot
+from genmojo_studio.view3d.splat_view import SplatView
+
+REST_MS = 180  # after the last movement for so long, full detail is drawn
+TURN_MS = 350  # an animated change of view
+_CLICK_PIXELS = 4
+_NO_GL = "No OpenGL here: the processor draws. Everything works, large scenes turn slower."
+_SOFT_GL = "OpenGL is emulated here: the processor draws directly, which is faster."
+
+
+class SceneView(QWidget):
+    """Shows a `SceneSnapshot`.
+
+    Signals: `picked(Pick)` after a click; `view_changed(Orbit)` whenever the place to look from changes;
+    `frame_drawn(FrameReport)` after every frame; `engine_changed(str)` with the sentence of the banner, "" for none.
+
+    Args:
+        engine: "auto" (OpenGL where it is a device, else the processor), "gl" or "cpu".
+    """
+
+    picked = Signal(object)
+    view_changed = Signal(object)
+    frame_drawn = Signal(object)
+    engine_changed = Signal(str)
+
+    def __init__(self, parent: QWidget | None = None, engine: str = "auto") -> None:
+        super().__init__(parent)
+        self.setMinimumSize(160, 120)
+        self.setMouseTracking(False)
+        self._snapshot: SceneSnapshot | None = None
+        self._look = Look()
+        self._orbit = Orbit()
+        self._time = 0.0
+        self._held: float | None = None
+        self._input: Callable[[int], np.ndarray | None] | None = None
+        self._press: tuple[QPointF, QPointF, Orbit] | None = None
+        self._rest = QTimer(self, interval=REST_MS, singleShot=True)
+        self._rest.timeout.connect(self._redraw)
+        self._turn = QVariantAnimation(self, duration=TURN_MS, startValue=0.0, endValue=1.0)
+        self._turn.setEasingCurve(QEasingCurve.Type.Linear)  # `between` eases
+        self._turn.valueChanged.connect(self._turned)
+        self._way: tuple[Orbit, Orbit] = (Orbit(), Orbit())
+        self.surface: SplatView | CpuView
+        self.overlay = Overlay(self)
+        self._choose(engine)
+
+    # ---- what is shown ------------------------------------------------------------------------------------------
+
+    @property
+    def snapshot(self) -> SceneSnapshot | None:
+        """The scene on show."""
+        return self._snapshot
+
+    def set_snapshot(self, snapshot: SceneSnapshot | None) -> None:
+        """Show a scene; older versions of the same source are the caller's to drop."""
+        if snapshot is self._snapshot:
+            return
+        self._snapshot = snapshot
+        if snapshot is None:
+            self.overlay.report = None
+            self.overlay.update()
+        self._redraw()
+
+    @property
+    def time(self) -> float:
+        """The time on show, frames: a snapshot that knows one frame only shows that."""
+        if self._snapshot is not None and self._snapshot.frames is None:
+            return float(self._snapshot.frame)
+        return self._time
+
+    def set_time(self, t: float, *, playing: bool = False) -> None:
+        """Show time t (0..T-1, between frames interpolated); `playing` allows less detail until it stops."""
+        if t == self._time:
+            return
+        self._time = float(t)
+        self._move() if playing else self._redraw()
+
+    @property
+    def look(self) -> Look:
+        """How the scene is shown."""
+        return self._look
+
+    def set_look(self, look: Look) -> None:
+        """Show the scene another way."""
+        if look != self._look:
+            self._look = look
+            self._redraw()
+
+    def set_input(self, frame: Callable[[int], np.ndarray | None] | None) -> None:
+        """Where Mode.RESIDUAL gets the clip's frame t (H, W, 3) uint8 from."""
+        self._input = frame
+        if self._look.mode == Mode.RESIDUAL:
+            self._redraw()
+
+    def add_overlay(self, paint: Paint) -> None:
+        """Let `paint(painter, view, t)` draw over every frame; `view` is the camera in logical pixels."""
+        self.overlay.paints.append(paint)
+        self.overlay.update()
+
+    def set_message(self, text: str) -> None:
+        """A banner at the lower edge, "" for none."""
+        self.overlay.message = text
+        self.overlay.update()
+        self.engine_changed.emit(text)
+
+    # ---- where from ---------------------------------------------------------------------------------------------
+
+    @property
+    def orbit(self) -> Orbit:
+        """The place to look from."""
+        return self._orbit
+
+    def set_orbit(self, orbit: Orbit, *, animate: bool = False) -> None:
+        """Look from elsewhere, at once or in a short turn."""
+        self._turn.stop()
+        if animate and self._snapshot is not None:
+            self._way = (self._orbit, orbit)
+            self._turn.start()
+        elif orbit != self._orbit:
+            self._orbit = orbit
+            self._move()
+            self.view_changed.emit(orbit)
+
+    def preset(self, name: str) -> None:
+        """Turn to a preset of `orbit.PRESETS` (or "below_90"), keeping distance and lens; "input" resets those too."""
+        if name == "input":
+            self.set_orbit(Orbit(), animate=True)
+            return
+        angles = PRESETS.get(name) or Orbit(elevation=-89.9)
+        self.set_orbit(replace(self._orbit, elevation=angles.elevation, azimuth=angles.azimuth, roll=0.0), animate=True)
+
+    def hold_camera(self, t: float | None) -> None:
+        """Look relative to the input camera of a fixed time; None: of the time on show (the view follows it)."""
+        self._held = t
+        self._redraw()
+
+    def reference(self) -> Reference:
+        """What the orbit is relative to: input camera, target, up. Raises GenmojoError("empty") without a scene."""
+        if self._snapshot is None:
+            raise GenmojoError("empty", "there is no scene", "3D view", "open a scene or start a run")
+        return reference_of(self._snapshot, self.time if self._held is None else self._held)
+
+    def view(self) -> View:
+        """The camera now, in logical pixels of this widget."""
+        return self._request(moving=False).view(self.width(), self.height())
+
+    # ---- questions ----------------------------------------------------------------------------------------------
+
+    def pick(self, x: float, y: float) -> Pick:
+        """What lies under logical pixel (x, y)."""
+        request = self._request(moving=False)
+        moment = request.snapshot.at(round(request.t))
+        ratio = self.devicePixelRatioF()
+        view = request.view(round(self.width() * ratio), round(self.height() * ratio))
+        return pick(moment, view, request.look, x * ratio, y * ratio)
+
+    def screenshot(
+        self, width: int, height: int, look: Look | None = None, orbit: Orbit | None = None, t: float | None = None
+    ) -> np.ndarray:  # (H, W, 4) uint8
+        """A picture of any size, mode, view and time, at full detail, without overlays.
+
+        Straight alpha where the look's backdrop is None. Raises GenmojoError without a scene or where it is too large.
+        """
+        request = self._request(moving=False)
+        if t is not None and self._snapshot is not None:
+            held = t if self._held is None else self._held
+            request = replace(request, t=t, reference=reference_of(self._snapshot, held))
+        request = replace(request, look=look or request.look, orbit=orbit or request.orbit)
+        return self.surface.image(request, request.view(width, height))
+
+    # ---- Qt -----------------------------------------------------------------------------------------------------
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Surface and overlay fill the widget."""
+        self.surface.setGeometry(self.rect())
+        self.overlay.setGeometry(self.rect())
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Begin a drag, or press an axis of the gizmo."""
+        preset = self.overlay.axis_at(event.position())
+        if preset and event.button() == Qt.MouseButton.LeftButton:
+            self.preset(preset)
+            return
+        self._turn.stop()
+        self._press = (event.position(), event.position(), self._orbit)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Left turns, middle (or Shift) moves, right changes the distance."""
+        if self._press is None or self._snapshot is None:
+            return
+        start, last, _ = self._press
+        if start == last and (event.position() - start).manhattanLength() < _CLICK_PIXELS:
+            return
+        moved = event.position() - last
+        self._press = (start, event.position(), self._press[2])
+        orbit = navigation.dragged(self._orbit, self.reference(), self.view(), (moved.x(), moved.y()),
+                                   navigation.action(event.buttons(), event.modifiers()))  # fmt: skip
+        self._go(orbit)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """A press without a movement asks what is there."""
+        if self._press is None:
+            return
+        start, last, _ = self._press
+        self._press = None
+        if start == last and event.button() == Qt.MouseButton.LeftButton and self._snapshot is not None:
+            self.picked.emit(self.pick(start.x(), start.y()))
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Back to the input view."""
+        if self.overlay.axis_at(event.position()) is None:
+            self.preset("input")
+
+    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 - Qt's name
+        """Nearer and farther; with Ctrl the lens."""
+        if self._snapshot is None:
+            return
+        steps = event.angleDelta().y() / 120
+        lens = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
+        self._turn.stop()
+        self._go(navigation.wheeled(self._orbit, self.reference(), steps, lens=lens))
+        event.accept()
+
+    def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 - Qt's name
+        """Free what the surface holds."""
+        self._turn.stop()
+        self._rest.stop()
+        self.surface.drop_gl()
+        super().closeEvent(event)
+
+    def event(self, event: QEvent) -> bool:
+        """A view that becomes visible or changes screens draws anew."""
+        if event.type() in (QEvent.Type.Show, QEvent.Type.DevicePixelRatioChange):
+            self._redraw()
+        return super().event(event)
+
+    # ---- pieces -------------------------------------------------------------------------------------------------
+
+    def _choose(self, engine: str) -> None:
+        """Make the surface."""
+        kind = {"gl": GlKind.DEVICE, "cpu": GlKind.SOFTWARE}.get(engine) or probe()
+        if kind == GlKind.DEVICE:
+            self._use(SplatView(self))
+        else:
+            self._use(CpuView(self))
+            if engine == "auto":
+                self.overlay.message = _SOFT_GL if kind == GlKind.SOFTWARE else _NO_GL
+
+    def _use(self, surface: SplatView | CpuView) -> None:
+        """Put a surface under the overlay."""
+        self.surface = surface
+        surface.setGeometry(self.rect())
+        surface.drawn.connect(self._drawn)
+        surface.failed.connect(self._failed)
+        surface.show()
+        self.overlay.raise_()
+
+    def _failed(self, reason: str) -> None:
+        """OpenGL did not work: the processor draws. Nothing left to fall back to: say why."""
+        if isinstance(self.surface, SplatView):
+            old = self.surface
+            self._use(CpuView(self))
+            old.deleteLater()
+            self.set_message(f"{_NO_GL} ({reason})")
+            self._redraw()
+        else:
+            self.set_message(f"The view cannot be drawn: {reason}")
+
+    def _drawn(self, report: FrameReport) -> None:
+        """A frame is on the screen."""
+        if self._snapshot is not None:
+            self.overlay.report = report
+            self.overlay.update()
+            self.frame_drawn.emit(report)
+
+    def _turned(self, share: float) -> None:
+        """One step of an animated turn."""
+        if self._snapshot is not None:
+            self._go(between(*self._way, share, self.reference()))
+
+    def _go(self, orbit: Orbit) -> None:
+        """Look from elsewhere while something moves."""
+        if orbit != self._orbit:
+            self._orbit = orbit
+            self._move()
+            self.view_changed.emit(orbit)
+
+    def _move(self) -> None:
+        """Draw soon with the detail that can be afforded, and fully once nothing moves."""
+        self._rest.start()
+        self._redraw()
+
+    def _redraw(self) -> None:
+        """Ask the surface for a frame, if there is a scene and somebody can see it."""
+        if self._snapshot is not None and self.isVisible():
+            self.surface.show_frame(self._request(moving=self._rest.isActive()))
+
+    def _request(self, *, moving: bool) -> FrameRequest:
+        """Everything about the frame now."""
+        reference = self.reference()
+        snapshot = self._snapshot
+        if snapshot is None:
+            raise GenmojoError("empty", "there is no scene", "3D view", "open a scene or start a run")
+        if self._look.canonical:
+            snapshot = snapshot.canonical
+        picture = self._input(int(self.time)) if self._input and self._look.mode == Mode.RESIDUAL else None
+        return FrameRequest(snapshot, reference, self._orbit, self._look, self.time, moving, picture)
+
+
+def watch_closing(view: SceneView, owner: QObject) -> None:
+    """Free the view's surface when the object that owns it goes (a dock that is deleted, not closed)."""
+    owner.destroyed.connect(view.surface.drop_gl)

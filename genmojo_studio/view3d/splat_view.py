@@ -1,0 +1,162 @@
+"""The surface that OpenGL draws on. Rules that were reproduced (VIEWER.md section 3), all kept here:
+
+every `initializeGL` makes a moderngl context for this widget and rebuilds everything; the framebuffer is asked for in
+every `paintGL`; sizes are those of the framebuffer; GL is called between makeCurrent and doneCurrent only; a context
+that dies frees its objects first; nothing is drawn that nobody asked for. Overlays lie in a widget above.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import moderngl
+import numpy as np
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtGui import QCloseEvent, QSurfaceFormat
+from PySide6.QtOpenGLWidgets import QOpenGLWidget
+from PySide6.QtWidgets import QWidget
+
+from genmojo_core.clip.cameras import View
+from genmojo_core.errors import GenmojoError
+from genmojo_studio.view3d.frames import Feeder, FrameReport, FrameRequest
+from genmojo_studio.view3d.look import SCALAR_MODES
+from genmojo_studio.view3d.quality import FULL, Detail
+from genmojo_studio.view3d.renderer import SplatRenderer
+
+_PREFETCH_MS = 30  # pause between two frames brought to the GPU while nothing moves
+
+
+def use_core_profile() -> None:
+    """Ask Qt for OpenGL 3.3 core in all windows to come; call before QApplication is made."""
+    wanted = QSurfaceFormat()
+    wanted.setVersion(3, 3)
+    wanted.setProfile(QSurfaceFormat.OpenGLContextProfile.CoreProfile)
+    wanted.setSamples(0)
+    wanted.setDepthBufferSize(0)
+    wanted.setSwapInterval(1)
+    QSurfaceFormat.setDefaultFormat(wanted)
+
+
+class SplatView(QOpenGLWidget):
+    """Draws the newest request. `drawn(FrameReport)` after every frame; `failed(str)` once if OpenGL is no use."""
+
+    drawn = Signal(object)
+    failed = Signal(str)
+    _order_ready = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.renderer: SplatRenderer | None = None
+        self._ctx: Any = None
+        self._request: FrameRequest | None = None
+        self._feeder = Feeder()
+        self._detail = Detail()
+        self._was_moving = False
+        self._full_ms: float | None = None
+        self._bounds: tuple[object, tuple[float, float]] = (None, (0.0, 1.0))
+        self._prefetch = QTimer(self, interval=_PREFETCH_MS, singleShot=True)
+        self._prefetch.timeout.connect(self._bring_frame)
+        self._order_ready.connect(self.update, Qt.ConnectionType.QueuedConnection)
+
+    def show_frame(self, request: FrameRequest) -> None:
+        """Draw this soon; an older request that was not drawn yet is forgotten."""
+        self._request = request
+        self.update()
+
+    def image(self, request: FrameRequest, view: View) -> np.ndarray:  # (H, W, 4) uint8
+        """A picture of any size off screen, at full detail. Raises GenmojoError where OpenGL failed."""
+        if self.renderer is None:
+            raise GenmojoError("missing_package", "OpenGL is not ready", "3D view", "show the view first")
+        self.makeCurrent()
+        try:
+            self._feeder.feed(self.renderer, request)
+            return self.renderer.image(view, request.look, request.t)
+        finally:
+            self.doneCurrent()
+
+    def initializeGL(self) -> None:  # noqa: N802 - Qt's name
+        """A context is there, the first one or another one: build everything."""
+        context = self.context()
+        if context is None:
+            return
+        context.aboutToBeDestroyed.connect(self.drop_gl, Qt.ConnectionType.DirectConnection)
+        try:
+            moderngl.init_context()  # create_context() crashes in a second view on EGL
+            self._ctx = moderngl.get_context()
+            self.renderer = SplatRenderer(self._ctx, self._order_ready.emit)
+        except (GenmojoError, moderngl.Error, KeyError, ValueError, OSError) as error:
+            self._ctx, self.renderer = None, None
+            self.failed.emit(str(error).splitlines()[0])
+        self._feeder = Feeder()
+
+    def paintGL(self) -> None:  # noqa: N802 - Qt's name
+        """Draw the newest request into the framebuffer Qt has now."""
+        if self.renderer is None or self._ctx is None:
+            return
+        target = self._ctx.detect_framebuffer(self.defaultFramebufferObject())
+        request = self._request
+        if request is None:
+            target.clear(0.06, 0.065, 0.07, 1.0)
+            return
+        start = time.perf_counter()
+        quality = self._quality(request)
+        self._feeder.feed(self.renderer, request)
+        self.renderer.draw(request.view(*target.size), request.look, request.t, quality)
+        bounds = self._scale(request)
+        self.renderer.resolve(target, request.look, bounds)
+        if self.renderer.is_software:
+            self._ctx.finish()
+        ms = (time.perf_counter() - start) * 1e3
+        if request.moving:
+            self._detail.took(ms)
+        else:
+            self._full_ms = ms
+            self._prefetch.start()
+        self.drawn.emit(FrameReport(request, ms, quality, bounds, self.renderer.order_is_exact))
+
+    def drop_gl(self) -> None:
+        """Free everything on the GPU; drawing again needs `initializeGL`."""
+        if self.renderer is None:
+            return
+        self._prefetch.stop()
+        self.makeCurrent()
+        self.renderer.release()
+        self.renderer, self._ctx = None, None
+        self.doneCurrent()
+
+    def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 - Qt's name
+        """The window goes: so does what is on the GPU."""
+        self.drop_gl()
+        super().closeEvent(event)
+
+    def _quality(self, request: FrameRequest) -> Any:
+        """Full at rest; what can be afforded while something moves."""
+        if not request.moving:
+            self._was_moving = False
+            return FULL
+        if not self._was_moving:
+            self._detail.begin(self._full_ms)
+            self._was_moving = True
+        return self._detail.quality
+
+    def _scale(self, request: FrameRequest) -> tuple[float, float]:
+        """The colour scale: the look's, or the picture's own, measured at rest and kept while moving."""
+        look = request.look
+        if look.value_range is not None:
+            return look.value_range
+        if look.mode not in SCALAR_MODES or self.renderer is None:
+            return 0.0, 1.0
+        if self._bounds[0] != look.mode or not request.moving:
+            self._bounds = (look.mode, self.renderer.measure(look))
+        return self._bounds[1]
+
+    def _bring_frame(self) -> None:
+        """While nothing moves, bring the clip's other frames to the GPU one by one."""
+        if self.renderer is None or self._request is None or self._request.moving or not self.isVisible():
+            return
+        self.makeCurrent()
+        more = self.renderer.prefetch()
+        self.doneCurrent()
+        if more:
+            self._prefetch.start()
