@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
@@ -12,14 +13,25 @@ from genmojo_core.clip.clip import Clip
 from genmojo_studio.actions import ActionTable
 from genmojo_studio.state import AppState
 from genmojo_studio.translate import tr
-from genmojo_studio.watch import differences
+from genmojo_studio.view3d.snapshot import SceneSnapshot
+from genmojo_studio.watch import differences, reference
 from genmojo_studio.watch.actions import COMPARES, MODES
+from genmojo_studio.watch.latest import Latest
 from genmojo_studio.watch.picture import Picture
-from genmojo_studio.watch.reference import Reference
 from genmojo_studio.watch.session import Session
 
 _JOINED = ("wipe", "onion", "difference")
 _MEASURE_MS = 400  # at most so often while a run goes on
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A frame of the scene on the clip's pixels (None where the scene is not known there), and its PSNR."""
+
+    clip: Clip | None
+    frame: int
+    render: np.ndarray | None
+    figures: dict[int, float]
 
 
 class Comparison(QObject):
@@ -32,14 +44,14 @@ class Comparison(QObject):
         super().__init__(parent)
         self._state = state
         self._session = session
-        self.reference = Reference(self)
+        self._latest = Latest(self)
         self.render: np.ndarray | None = None
         self.wanted = False
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.setInterval(_MEASURE_MS)
         self._timer.timeout.connect(self._ask)
-        self.reference.drawn.connect(self._drawn)
+        self._latest.done.connect(self._drawn)
         session.snapshot_changed.connect(self.later)
         state.subscribe(self.now, "frame", "clip")
 
@@ -62,25 +74,32 @@ class Comparison(QObject):
     def close(self) -> None:
         """No more results."""
         self._timer.stop()
-        self.reference.close()
+        self._latest.close()
 
     def _ask(self) -> None:
         shown, snapshot = self.input, self._session.snapshot
         if shown is not None and snapshot is not None:
-            self.reference.request(snapshot, self._state.frame, (shown.shape[1], shown.shape[0]))
+            frame, size = self._state.frame, (shown.shape[1], shown.shape[0])
+            clip = self._state.clip
+            self._latest.ask(lambda: _compared(snapshot, clip, frame, size))
 
-    def _drawn(self, pixels: np.ndarray, frame: int) -> None:
-        shown, clip = self.input, self._state.clip
-        if frame != self._state.frame or shown is None or clip is None or shown.shape != pixels.shape:
-            return
-        self.render = pixels
-        self.ready.emit()
-        self.measured.emit(figures(clip, frame, shown, pixels))
+    def _drawn(self, result: Compared) -> None:
+        if result.frame == self._state.frame and result.clip is self._state.clip:
+            self.render = result.render
+            self.ready.emit()
+            self.measured.emit(result.figures)
+
+
+def _compared(snapshot: SceneSnapshot, clip: Clip | None, frame: int, size: tuple[int, int]) -> Compared:
+    render = reference.draw(snapshot, frame, size)
+    if clip is None or render is None:
+        return Compared(clip, frame, None, {})
+    return Compared(clip, frame, render, figures(clip, frame, clip.frames[frame], render))
 
 
 def figures(clip: Clip, frame: int, shown: np.ndarray, render: np.ndarray) -> dict[int, float]:
     """PSNR by object id in dB, and of the whole frame under -1."""
-    whole = differences.psnr_by_object(shown, render, np.zeros(shown.shape[:2], np.uint8), {-1: 0})
+    whole = {-1: differences.whole_psnr(shown, render)}
     if clip.masks is None:
         return whole
     labels = {int(object_id): k + 1 for k, object_id in enumerate(clip.object_ids)}
@@ -88,12 +107,10 @@ def figures(clip: Clip, frame: int, shown: np.ndarray, render: np.ndarray) -> di
 
 
 class Center(QWidget):
-    """A strip of choices above the pictures. `view` is the live scene view."""
+    """A strip of choices above the pictures. `view` is the live scene view, `beside` the pane of another scene."""
 
-    def __init__(
-        self, state: AppState, actions: ActionTable, session: Session, view: QWidget, parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, state: AppState, actions: ActionTable, session: Session, view: QWidget, beside: QWidget) -> None:
+        super().__init__()
         self._state = state
         self.mode = COMPARES[1]
         self.comparison = Comparison(state, session, self)
@@ -116,10 +133,10 @@ class Center(QWidget):
         top.addStretch()
         top.addWidget(self.figures)
         self.splitter = QSplitter()
-        for pane in (self.input_picture, self.view, self.joined_picture):
+        for pane in (self.input_picture, self.view, self.joined_picture, beside):
             self.splitter.addWidget(pane)
         self.splitter.setChildrenCollapsible(False)
-        self.splitter.setSizes([1000, 1000, 1000])
+        self.splitter.setSizes([1000] * 4)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)

@@ -15,7 +15,6 @@ from genmojo_core.store.atomic import write_bytes
 from genmojo_studio import notify
 from genmojo_studio.translate import tr
 from genmojo_studio.view3d.look import Mode
-from genmojo_studio.view3d.orbit import PRESETS
 from genmojo_studio.watch.actions import COMPARES, MODES, VIEWS
 from genmojo_studio.worker import runs
 
@@ -64,7 +63,7 @@ def _bind_view(w: WatchWorkspace) -> None:
     bind_to("edit.undo", w.undo.undo, lambda: bool(w.undo.undo_text))
     bind_to("edit.redo", w.undo.redo, lambda: bool(w.undo.redo_text))
     for name, _, _ in VIEWS:
-        bind_to(f"view.{name}", partial(w.view.go_to, PRESETS[name]))
+        bind_to(f"view.{name}", partial(w.view.preset, name))
     for action_id, mode in MODES.items():
         text = tr(w.table[action_id].text)
         bind_to(action_id, partial(appearance.set_mode, mode, text), checked=partial(_shows, w, Mode(mode)))
@@ -72,7 +71,7 @@ def _bind_view(w: WatchWorkspace) -> None:
         bind_to(f"compare.{name}", partial(w.center.set_mode, name), checked=partial(_compares, w, name))
     bind_to("view.background", partial(_toggle, w, "show_background"), checked=lambda: appearance.look.show_background)
     bind_to("view.canonical", partial(_toggle, w, "canonical"), checked=lambda: appearance.look.canonical)
-    bind_to("view.tracks", partial(_toggle_tracks, w), checked=lambda: w.view.tracks_shown)
+    bind_to("view.tracks", partial(_toggle_tracks, w), checked=lambda: w.tracks_shown)
     bind_to("view.all", lambda: appearance.show_all(tr("Show all objects")))
     bind_to(
         "view.solo",
@@ -159,7 +158,7 @@ def _toggle(w: WatchWorkspace, name: str) -> None:
 
 
 def _toggle_tracks(w: WatchWorkspace) -> None:
-    w.view.tracks_shown = not w.view.tracks_shown
+    w.tracks_shown = not w.tracks_shown
     w.tracks.changed.emit()
 
 

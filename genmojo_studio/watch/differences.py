@@ -29,6 +29,11 @@ def absolute(first: np.ndarray, second: np.ndarray, gain: float) -> np.ndarray: 
     return np.minimum(apart * gain, 255).astype(np.uint8)
 
 
+def whole_psnr(first: np.ndarray, second: np.ndarray) -> float:  # (H, W, 3) uint8 each
+    """PSNR in dB over all pixels."""
+    return psnr(first / np.float32(255), second / np.float32(255))
+
+
 def psnr_by_object(
     first: np.ndarray,  # (H, W, 3) uint8
     second: np.ndarray,  # (H, W, 3) uint8

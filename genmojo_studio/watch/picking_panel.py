@@ -1,14 +1,151 @@
-"""stand-in"""
+"""What lies under a pixel: the Gaussians that make its colour, and the chosen one's way and parameters over time."""
 
-from PySide6.QtWidgets import QWidget
+from __future__ import annotations
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QColor, QIcon, QPixmap
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
+
+from genmojo_studio import notify
+from genmojo_studio.background import Tasks
+from genmojo_studio.state import AppState
+from genmojo_studio.theme import SERIES, colours
+from genmojo_studio.translate import tr
+from genmojo_studio.view3d.picking import Contributor, Pick
+from genmojo_studio.view3d.snapshot import SceneSnapshot
+from genmojo_studio.watch import trajectory
+from genmojo_studio.watch.controls import dim
+from genmojo_studio.watch.trajectory import Trajectory
+
+_MOST_ROWS = 40
+_ROW = Qt.ItemDataRole.UserRole
 
 
 class PickingPanel(QWidget):
-    def __init__(self, state):
-        super().__init__()
+    """Filled by a click into the scene. `trajectory_changed` when another Gaussian is followed (or none)."""
 
-    def clear(self):
-        pass
+    trajectory_changed = Signal()
 
-    def show_pick(self, *a):
-        pass
+    def __init__(self, state: AppState, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._state = state
+        self._tasks = Tasks(self)
+        self._snapshot: SceneSnapshot | None = None
+        self.trajectory: Trajectory | None = None
+        self.said = dim(tr("Click a place in the scene to see which Gaussians make its colour."))
+        self.list = QTreeWidget()
+        self.list.setHeaderLabels([tr("Object"), tr("Share"), tr("Depth"), tr("Opacity"), tr("Number")])
+        self.list.setRootIsDecorated(False)
+        self.list.setUniformRowHeights(True)
+        self.what = QComboBox()
+        for key, text in (
+            ("position", tr("Position")),
+            ("speed", tr("Speed")),
+            ("turn", tr("Turn (°)")),
+            ("scale", tr("Size")),
+            ("opacity", tr("Opacity")),
+            ("colour", tr("Colour")),
+        ):
+            self.what.addItem(text, key)
+        self.plot = pg.PlotWidget()
+        self.plot.setLabel("bottom", tr("frame"))
+        self.plot.addLegend(offset=(-8, 8), labelTextSize="8pt")
+        self.plot.hideButtons()
+        self._here = pg.InfiniteLine(0, angle=90, pen=pg.mkPen(SERIES[1]))
+        left, right = QVBoxLayout(), QVBoxLayout()
+        left.addWidget(self.said)
+        left.addWidget(self.list, 1)
+        right.addWidget(self.what, 0, Qt.AlignmentFlag.AlignLeft)
+        right.addWidget(self.plot, 1)
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(8, 8, 8, 8)
+        layout.addLayout(left, 2)
+        layout.addLayout(right, 3)
+        self.list.itemSelectionChanged.connect(self._follow_chosen)
+        self.what.activated.connect(self._draw)
+        state.subscribe(self._show_frame, "frame")
+        state.subscribe(self._dress, "theme")
+        self._dress()
+
+    def clear(self) -> None:
+        """Another scene is on show."""
+        self._tasks.drop()
+        self._snapshot, self.trajectory = None, None
+        self.list.clear()
+        self._draw()
+        self.trajectory_changed.emit()
+
+    def close_tasks(self) -> None:
+        """No more results."""
+        self._tasks.close()
+
+    def show_pick(self, pick: Pick | None, snapshot: SceneSnapshot | None) -> None:
+        """Lists what a click found."""
+        self._snapshot = snapshot
+        self.list.clear()
+        if pick is None or pick.main is None:
+            self.said.setText(tr("Nothing is there."))
+            return
+        text = tr("{count} Gaussians cover {coverage:.0f} % of pixel ({x:.0f}, {y:.0f}); depth {depth:.3f}.")
+        self.said.setText(
+            text.format(
+                count=len(pick.contributors), coverage=100 * pick.coverage, x=pick.x, y=pick.y, depth=pick.main.depth
+            )
+        )
+        strongest = sorted(pick.contributors, key=lambda one: -one.weight)[:_MOST_ROWS]
+        for one in strongest:
+            item = _item(one)
+            self.list.addTopLevelItem(item)
+            if one.row == pick.main.row:
+                self.list.setCurrentItem(item)
+        for column in range(5):
+            self.list.resizeColumnToContents(column)
+
+    def _follow_chosen(self) -> None:
+        item, snapshot = self.list.currentItem(), self._snapshot
+        if item is None or snapshot is None:
+            return
+        row = int(item.data(0, _ROW))
+        self._tasks.drop()
+        self._tasks.run(lambda: trajectory.of(snapshot, row), self._take, notify.tell)
+
+    def _take(self, found: Trajectory) -> None:
+        self.trajectory = found
+        self._draw()
+        self.trajectory_changed.emit()
+
+    def _draw(self) -> None:
+        self.plot.clear()
+        self.plot.addItem(self._here, ignoreBounds=True)
+        if self.trajectory is None:
+            return
+        what = str(self.what.currentData())
+        for i, (name, values) in enumerate(self.trajectory.curves(what).items()):
+            colour = ("#e0524d", "#3fa45b", "#4f8fe0")[i] if what == "colour" else SERIES[i]
+            self.plot.plot(np.arange(1, len(values) + 1), values, name=name, pen=pg.mkPen(colour, width=2))
+
+    def _show_frame(self) -> None:
+        self._here.setValue(self._state.frame + 1)
+
+    def _dress(self) -> None:
+        table = colours(self._state.theme)
+        self.plot.setBackground(table.field)
+        self.plot.showGrid(x=True, y=True, alpha=0.15)
+        for side in ("bottom", "left"):
+            self.plot.getAxis(side).setTextPen(table.text)
+            self.plot.getAxis(side).setPen(table.line)
+        self.plot.getPlotItem().legend.setLabelTextColor(table.text)
+
+
+def _item(one: Contributor) -> QTreeWidgetItem:
+    texts = [one.object_name, f"{100 * one.weight:.1f} %", f"{one.depth:.3f}", f"{one.opacity:.2f}", str(one.uid)]
+    item = QTreeWidgetItem(texts)
+    item.setData(0, _ROW, one.row)
+    picture = QPixmap(14, 14)
+    picture.fill(QColor.fromRgbF(*(min(max(c, 0.0), 1.0) for c in one.colour)))
+    item.setIcon(0, QIcon(picture))
+    for column in range(1, 5):
+        item.setTextAlignment(column, Qt.AlignmentFlag.AlignRight)
+    return item

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from typing import Any
 
@@ -25,11 +24,10 @@ from genmojo_studio import notify
 from genmojo_studio.actions import ActionTable
 from genmojo_studio.translate import tr
 from genmojo_studio.view3d.orbit import Orbit, Reference, parse
+from genmojo_studio.view3d.safe_band import SAFE_DEGREES, degrees_outside
 from genmojo_studio.watch.actions import VIEWS
 from genmojo_studio.watch.appearance import Appearance
 from genmojo_studio.watch.controls import number, row, set_role
-
-SAFE_DEGREES = 10.0  # a view this close to one that had supervision counts as seen
 
 
 class ViewPanel(QWidget):
@@ -128,18 +126,8 @@ class ViewPanel(QWidget):
 
 
 def judged(orbit: Orbit, supervised: np.ndarray) -> tuple[str, str]:
-    """(sentence, role): how far the view is from the nearest one that had supervision (the input camera always had)."""
-    angles = np.concatenate([np.zeros((1, 2)), np.asarray(supervised, np.float64)[:, :2]])
-    here = _direction(np.array([[orbit.elevation, orbit.azimuth]]))
-    cosines = _direction(angles) @ here[0]
-    away = math.degrees(math.acos(min(max(float(cosines.max()), -1.0), 1.0)))
+    """(sentence, role): how far the view is from the nearest one that had supervision."""
+    away = degrees_outside(orbit, supervised)
     if away <= SAFE_DEGREES:
         return tr("Seen: supervision reaches this view."), "good"
     return tr("Not seen: {angle:.0f}° from the nearest supervised view.").format(angle=away), "warn"
-
-
-def _direction(angles: np.ndarray) -> np.ndarray:  # (M, 2) degrees -> (M, 3) unit
-    elevation, azimuth = np.deg2rad(angles).T
-    return np.stack(
-        [np.cos(elevation) * np.sin(azimuth), np.sin(elevation), np.cos(elevation) * np.cos(azimuth)], axis=1
-    )

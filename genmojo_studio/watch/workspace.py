@@ -15,6 +15,7 @@ from genmojo_studio.settings import Settings
 from genmojo_studio.state import AppState
 from genmojo_studio.translate import tr
 from genmojo_studio.undo import UndoStack
+from genmojo_studio.view3d.picking import Pick
 from genmojo_studio.watch import commands
 from genmojo_studio.watch.appearance import Appearance
 from genmojo_studio.watch.center import Center
@@ -22,6 +23,7 @@ from genmojo_studio.watch.compare_panel import ComparePanel
 from genmojo_studio.watch.controls import scrolled
 from genmojo_studio.watch.curves import Curves
 from genmojo_studio.watch.leaving import may_leave
+from genmojo_studio.watch.live_view import LiveView
 from genmojo_studio.watch.objects_panel import ObjectsPanel
 from genmojo_studio.watch.picking_panel import PickingPanel
 from genmojo_studio.watch.player import Player
@@ -29,10 +31,10 @@ from genmojo_studio.watch.run_control import RunControl
 from genmojo_studio.watch.run_log import RunLog
 from genmojo_studio.watch.run_setup import RunSetup
 from genmojo_studio.watch.run_status import RunStatus
-from genmojo_studio.watch.scene_view import SceneView
 from genmojo_studio.watch.session import Session
 from genmojo_studio.watch.take_away import TakeAway
 from genmojo_studio.watch.time_bar import TimeBar
+from genmojo_studio.watch.track_sets import TrackSet
 from genmojo_studio.watch.tracks_panel import TracksPanel
 from genmojo_studio.watch.view_panel import ViewPanel
 
@@ -49,13 +51,15 @@ class WatchWorkspace(QMainWindow):
         self.state = state
         self.table = actions
         self.undo = UndoStack()
+        self.tracks_shown = True
         self.appearance = Appearance(self.undo, self)
         self.tasks = Tasks(self)
         self.session = Session(state, self.tasks, self)
         self.control = RunControl(self)
         self.player = Player(state, self.isVisible, self)
-        self.view = SceneView(state, self.appearance, self.undo)
-        self.center = Center(state, actions, self.session, self.view)
+        self.view = LiveView(state, self.appearance, self.undo)
+        self.compare = ComparePanel(state)
+        self.center = Center(state, actions, self.session, self.view, self.compare.pane)
         self.view_panel = ViewPanel(actions, self.appearance)
         self.objects_panel = ObjectsPanel(state, actions, self.appearance)
         self.setup = RunSetup(state)
@@ -63,7 +67,6 @@ class WatchWorkspace(QMainWindow):
         self.curves = Curves(state)
         self.picking = PickingPanel(state)
         self.tracks = TracksPanel(state)
-        self.compare = ComparePanel(state, self.view)
         self.take_away = TakeAway(state, self.session, self.control, self.view, self)
         self._arrange()
         self._connect()
@@ -105,7 +108,8 @@ class WatchWorkspace(QMainWindow):
         self.setup.effects.stop()
         self.take_away.close()
         self.center.comparison.close()
-        self.compare.close()
+        self.picking.close_tasks()
+        self.compare.close_tasks()
         self.view.close()
         self.tasks.close()
         event.accept()
@@ -167,8 +171,11 @@ class WatchWorkspace(QMainWindow):
         control.state_changed.connect(self.table.changed)
         self.setup.start_wanted.connect(lambda: self.table.trigger("run.start"))
         self.status.resume_button.clicked.connect(self._resume)
-        self.view.orbit_changed.connect(self._show_orbit)
+        self.view.view_changed.connect(self._show_orbit)
+        self.view.frame_drawn.connect(self._show_comparison)
         self.view.picked.connect(self._picked)
+        self.picking.trajectory_changed.connect(self._show_tracks)
+        self.compare.request_wanted.connect(self._show_comparison)
         self.view_panel.orbit_wanted.connect(self.view.set_orbit)
         self.center.comparison.measured.connect(self.objects_panel.show_psnr)
         self.tracks.changed.connect(self._show_tracks)
@@ -180,7 +187,16 @@ class WatchWorkspace(QMainWindow):
         snapshot = self.session.snapshot
         self.view.show_snapshot(snapshot)
         self.objects_panel.show_snapshot(snapshot)
+        self.compare.show_first(self._scene_name(), snapshot, self.session.scene)
         self._show_orbit()
+
+    def _scene_name(self) -> str:
+        path = self.session.path
+        return tr("This run") if path is None else path.parent.name if path.name == "scene.h5" else path.name
+
+    def _show_comparison(self) -> None:
+        if self.compare.active:
+            self.compare.show_request(self.view.request(), (self.view.width(), self.view.height()))
 
     def _scene_changed(self) -> None:
         self.undo.clear()
@@ -197,29 +213,34 @@ class WatchWorkspace(QMainWindow):
             self.player.fps = (len(clip.seconds) - 1) / max(float(clip.seconds[-1] - clip.seconds[0]), 1e-6)
 
     def _frame_changed(self) -> None:
-        self.view.set_time(self.state.frame)
         if self.control.live and not self.state.playing:
             self.control.look(self.state.frame)
         self._show_orbit()
 
     def _show_orbit(self) -> None:
         snapshot = self.session.snapshot
-        if snapshot is not None:
-            self.view_panel.show_orbit(self.view.orbit, self.view.reference, snapshot.supervised)
+        if self.view.snapshot is not None and snapshot is not None:
+            self.view_panel.show_orbit(self.view.orbit, self.view.reference(), snapshot.supervised)
 
     def _look_changed(self) -> None:
         self.center.show_render_mode(str(self.appearance.look.mode))
         self.table.changed()
 
     def _show_tracks(self) -> None:
-        shown = self.tracks.sets.sets.values() if self.view.tracks_shown else ()
-        self.view.show_tracks(shown, self.tracks.selected)
+        shown = list(self.tracks.sets.sets.values()) if self.tracks_shown else []
+        followed, snapshot = self.picking.trajectory, self.session.snapshot
+        extra = []
+        if followed is not None and snapshot is not None and len(followed.position) == snapshot.T:
+            extra.append(TrackSet("", "imported", followed.as_track((1, 1))))
+        self.view.show_tracks([*shown, *extra], self.tracks.selected)
         self.center.input_picture.show_tracks(shown, self.tracks.selected)
         self.center.joined_picture.show_tracks(shown, self.tracks.selected)
 
-    def _picked(self, x: float, y: float) -> None:
-        self.picking.show_pick(self.view.pick(x, y), self.session.snapshot)
+    def _picked(self, found: Pick) -> None:
+        self.picking.show_pick(found, self.session.snapshot)
         self.docks["picking"].raise_()
+        if found.main is not None:
+            self.state.set(selected_object=found.main.object_id)
 
     def _log_grew(self) -> None:
         self.curves.changed()
