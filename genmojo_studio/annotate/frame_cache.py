@@ -87,9 +87,13 @@ class FrameCache(QObject):
         """Frames in the ring, rising."""
         return sorted(self._frames)
 
-    def put_mask(self, frame: int, labels: np.ndarray | None) -> None:
-        """Replace the mask of a frame: (H, W) uint8 ids made by hand."""
-        self._masks[frame] = labels
+    def forget(self) -> None:
+        """Let go of every frame, as after a change of the files."""
+        with self._changed:
+            self._frames.clear()
+            self._masks.clear()
+            self._bad.clear()
+            self._changed.notify_all()
 
     def close(self) -> None:
         """End the threads and let go of all memory; idempotent."""

@@ -101,12 +101,12 @@ def draw_mark(painter: QPainter, mark: Mark, centre: QPointF, *, selected: bool 
     painter.setPen(QPen(_DARK, 3.2))
     painter.setBrush(Qt.BrushStyle.NoBrush)
     painter.drawPath(path)
-    pen = QPen(colour if hidden else QColor(255, 255, 255), 1.6)
+    pen = QPen(colour, 2.0)
     if mark.state == OCCLUDED:
         pen.setDashPattern([1.6, 1.4])
     painter.setPen(pen)
     fill = QColor(colour)
-    fill.setAlpha(0 if hidden else 175)
+    fill.setAlpha(0 if hidden else 70)  # the pixel below must show
     painter.setBrush(QBrush(fill))
     painter.drawPath(path)
     if mark.state == OUT_OF_VIEW:
@@ -155,7 +155,7 @@ def _badges(painter: QPainter, mark: Mark, centre: QPointF, radius: float) -> No
     if mark.flags & KEY:
         painter.setPen(QPen(_DARK, 1))
         painter.setBrush(QColor(255, 255, 255))
-        painter.drawEllipse(centre, 2.2, 2.2)
+        painter.drawEllipse(centre, 1.7, 1.7)
     if mark.flags & CONFIRMED and not mark.flags & KEY:
         x, y = centre.x(), centre.y() + radius * 1.6
         for colour, width in ((_DARK, 3.4), (QColor(150, 235, 170), 1.6)):

@@ -111,7 +111,8 @@ class AnnotateWorkspace(QMainWindow):
         self.pages.setMinimumWidth(300)
         self.bar.setEnabled(True)
         self.bar.stride.setValue(session.stride)
-        session.edited.connect(self._steps_later.start)
+        for changed in (session.edited, session.selected):
+            changed.connect(self._steps_later.start)
         session.said.connect(self.say)
         session.stored.connect(self._stored)
         bind(self)
@@ -230,6 +231,7 @@ class AnnotateWorkspace(QMainWindow):
         session = self.session
         missing = [s.missing(session.annotation, session.limit("points"), session.stride) for s in STEPS]
         self.bar.show_step(self.step, missing)
+        self.buttons.refresh()
 
     def _first_open_step(self) -> int:
         """The step that a clip is in: the first that lacks something."""

@@ -1,0 +1,170 @@
+"""Frame steps of the annotator at 1080p: from the key to a painted frame, cached and not, and with many tracks.
+
+    python tests/benchmarks/frame_step.py            # prints milliseconds; needs a display (xvfb-run will do)
+
+Goals of issue 5: p95 at most 16 ms cached and 33 ms uncached with 25 tracks; with 5,000 tracks x 10,000 frames at
+most 10 % more. Wall time is what a person waits for; CPU time of the window's thread is steadier on a shared machine.
+Not covered: videos (their seeks are timed in tests/clip), a graphics driver's own latency.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import cv2
+import numpy as np
+from PySide6.QtWidgets import QApplication
+
+from genmojo_core.store.project import Project, info_of
+from genmojo_core.tracks.annotation import Annotation, Cells, ObjectInfo, TrackInfo
+from genmojo_studio import theme
+from genmojo_studio.actions import ActionTable
+from genmojo_studio.annotate.actions import ACTIONS
+from genmojo_studio.annotate.frame_cache import FrameCache
+from genmojo_studio.annotate.session import Session
+from genmojo_studio.annotate.workspace import AnnotateWorkspace
+from genmojo_studio.state import AppState
+
+W, H, CLIP = 1920, 1080, 48
+
+
+def write_clip(folder: Path, frames: int = CLIP) -> Path:
+    """A 1080p clip of JPEG files with texture everywhere."""
+    random = np.random.default_rng(0)
+    small = random.integers(0, 255, (H // 8, W // 8, 3), np.uint8)
+    picture = cv2.resize(small, (W, H), interpolation=cv2.INTER_CUBIC)
+    (folder / "JPEGImages" / "clip").mkdir(parents=True)
+    for t in range(frames):
+        cv2.imwrite(str(folder / "JPEGImages" / "clip" / f"{t:05d}.jpg"), np.roll(picture, 6 * t, axis=1),
+                    [cv2.IMWRITE_JPEG_QUALITY, 92])  # fmt: skip
+    return folder
+
+
+def fill(annotation: Annotation, tracks: int) -> None:
+    """Five objects and many tracks that move and hide now and then."""
+    random = np.random.default_rng(1)
+    annotation.reserve(tracks)
+    for k in range(1, 6):
+        annotation.put_object(k, ObjectInfo(k, f"object {k}", k, "chosen"))
+    t = np.arange(annotation.frames)[:, None]
+    for n in range(tracks):
+        annotation.put_track(n + 1, TrackInfo(n + 1, n % 5 + 1, n // 5 + 1))
+        xy = random.uniform((100, 100), (W - 100, H - 100)) + 60 * np.stack([np.cos(t[:, 0] / 9 + n), np.sin(t[:, 0] / 7)], 1)
+        cells = Cells.empty(annotation.frames)
+        cells.xy[:], cells.state[:], cells.conf[:] = xy, 1 + (t[:, 0] // 8 + n) % 5 // 4, 0.8
+        cells.flags[::16] = 5
+        annotation.write_cells(n + 1, np.arange(annotation.frames), cells)
+    annotation.revision += 1
+
+
+def make(folder: Path, clip: Path, tracks: int, frames: int) -> AnnotateWorkspace:
+    """A window of 1920 x 1080 with a session in the step Refine."""
+    state = AppState()
+    cache = FrameCache(clip)
+    if frames > cache.count:  # a long clip without a long clip's files: later numbers show the files again
+        files = cache.count
+        cache.close()
+        cache = Repeated(clip, frames, files)
+    project = Project.create(folder / f"{tracks}-{frames}.genmojo", info_of(cache.count, cache.size, "clip", str(clip)))
+    fill(project.annotation, tracks)
+    state.set(frame_count=cache.count)
+    workspace = AnnotateWorkspace(state, ActionTable(ACTIONS))
+    workspace.resize(W, H)
+    workspace.show()
+    workspace.open_with(Session(state, cache, project))
+    workspace.work.close()  # nothing in the background while time is taken
+    workspace.show_step(2)
+    settle()
+    return workspace
+
+
+class Repeated(FrameCache):
+    """A cache of a long clip whose pictures are those of a short one."""
+
+    def __init__(self, clip: Path, frames: int, files: int) -> None:
+        self._files = files
+        super().__init__(clip)
+        self.count = frames
+        self.seconds = np.arange(frames) / 24.0
+
+    def _wanted(self) -> Iterator[int]:
+        return (frame for frame in super()._wanted() if frame < self._files)
+
+    def get(self, frame: int) -> np.ndarray | None:
+        return super().get(frame % self._files)
+
+    def want(self, frame: int) -> int:
+        return super().want(frame % self._files)
+
+
+def settle(seconds: float = 0.4) -> None:
+    """Let pending events through."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        QApplication.processEvents()
+
+
+def step(workspace: AnnotateWorkspace, frame: int) -> tuple[float, float]:
+    """Milliseconds of wall and of this thread's CPU until a frame is painted with its overlay."""
+    wall, cpu = time.perf_counter(), time.thread_time()
+    workspace.session.go(frame)
+    while workspace.screen_link.painted != frame:
+        QApplication.processEvents()
+    workspace.canvas.repaint()
+    QApplication.processEvents()
+    return 1e3 * (time.perf_counter() - wall), 1e3 * (time.thread_time() - cpu)
+
+
+def cached(workspace: AnnotateWorkspace, frames: list[int]) -> np.ndarray:
+    """(n, 2) milliseconds of steps over frames that are decoded already."""
+    for frame in dict.fromkeys(frames):
+        workspace.session.cache.read(frame % CLIP)
+    settle()
+    return np.array([step(workspace, f) for f in frames])
+
+
+def uncached(workspace: AnnotateWorkspace, frames: list[int]) -> np.ndarray:
+    """(n, 2) milliseconds of steps whose frame must be decoded first."""
+    times = []
+    for frame in frames:
+        workspace.session.cache.forget()
+        times.append(step(workspace, frame))
+    return np.array(times)
+
+
+def report(title: str, times: np.ndarray) -> float:
+    """One line; returns the p95 of the CPU time."""
+    wall, cpu = np.percentile(times, 95, axis=0)
+    middle = np.median(times, axis=0)
+    sys.stdout.write(f"{title:34s} wall p50 {middle[0]:6.1f} p95 {wall:6.1f} ms   cpu p50 {middle[1]:6.1f} p95 {cpu:6.1f} ms\n")
+    return float(cpu)
+
+
+def main() -> None:
+    """Print the figures."""
+    application = QApplication.instance() or QApplication([])
+    theme.apply(application, "dark")
+    os.environ.setdefault("XDG_CONFIG_HOME", tempfile.mkdtemp())
+    with tempfile.TemporaryDirectory() as name:
+        clip = write_clip(Path(name) / "clip")
+        workspace = make(Path(name), clip, 25, CLIP)
+        there_and_back = [*range(CLIP), *reversed(range(CLIP))]
+        report("25 tracks, cached", cached(workspace, there_and_back * 2))
+        report("25 tracks, uncached", uncached(workspace, there_and_back))
+        few = cached(workspace, list(range(0, CLIP, 2)) * 4)
+        workspace.close()
+        workspace = make(Path(name), clip, 5000, 10_000)
+        many = cached(workspace, list(range(5000, 5000 + CLIP, 2)) * 4)
+        report("25 tracks x 48 frames", few)
+        report("5,000 tracks x 10,000 frames", many)
+        sys.stdout.write(f"ratio of medians (CPU): {np.median(many[:, 1]) / np.median(few[:, 1]):.2f}\n")
+        workspace.close()
+
+
+if __name__ == "__main__":
+    main()
