@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-import cv2
 import numpy as np
 
 from genmojo_studio.view3d.look import RGB, Mode
@@ -16,6 +15,8 @@ LEAST = 1e-4  # coverage by which sums are divided at least
 @lru_cache(maxsize=1)
 def palette_rgb() -> np.ndarray:
     """(256, 3) float32 colours of a scalar scale, dark to bright (viridis)."""
+    import cv2  # a tenth of a second that a window without a scene need not wait
+
     table = cv2.applyColorMap(np.arange(256, dtype=np.uint8)[:, None], cv2.COLORMAP_VIRIDIS)
     return np.ascontiguousarray(table[:, 0, ::-1], np.float32) / 255
 

@@ -102,6 +102,7 @@ class _Drawer:
         self._thread: threading.Thread | None = None
         self._full_ms: float | None = None
         self._was_moving = False
+        self._warm = False  # the first frame may include compiling the kernels
         self._bounds: tuple[object, tuple[float, float]] = (None, (0.0, 1.0))
 
     def ask(self, request: FrameRequest, size: tuple[int, int]) -> None:
@@ -173,8 +174,9 @@ class _Drawer:
         ms = (time.perf_counter() - start) * 1e3
         if request.moving:
             self._detail.took(ms)
-        else:
+        elif self._warm:
             self._full_ms = ms
+        self._warm = True
         return pixels, FrameReport(request, ms, quality, bounds)
 
     def _scale(self, request: FrameRequest, sums: np.ndarray) -> tuple[float, float]:

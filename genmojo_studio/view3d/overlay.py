@@ -14,10 +14,11 @@ from PySide6.QtGui import QColor, QFont, QImage, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
 from genmojo_core.clip.cameras import View
+from genmojo_studio.translate import tr
 from genmojo_studio.view3d.colouring import flow_wheel, palette_rgb
 from genmojo_studio.view3d.frames import FrameReport
 from genmojo_studio.view3d.look import SCALAR_MODES, TITLES, UNITS, Mode
-from genmojo_studio.view3d.safe_band import badge
+from genmojo_studio.view3d.safe_band import SAFE_DEGREES, degrees_outside
 
 Paint = Callable[[QPainter, View, float], None]  # (painter, camera in logical pixels, time)
 
@@ -81,13 +82,15 @@ class Overlay(QWidget):
             return
         request = self.report.request
         o = request.orbit
-        where = f"elevation {o.elevation:+.1f}°   azimuth {o.azimuth:+.1f}°"
+        where = tr("elevation {degrees:+.1f}°").format(degrees=o.elevation)
+        where += "   " + tr("azimuth {degrees:+.1f}°").format(degrees=o.azimuth)
         if abs(o.roll) > 0.05:
-            where += f"   roll {o.roll:+.1f}°"
-        lines = [where] if request.look.mode == Mode.RGB else [where, TITLES[request.look.mode]]
+            where += "   " + tr("roll {degrees:+.1f}°").format(degrees=o.roll)
+        lines = [where] if request.look.mode == Mode.RGB else [where, tr(TITLES[request.look.mode])]
         bottom = plate(painter, lines, QPointF(_MARGIN, _MARGIN), _INK)
-        warning = badge(o, request.snapshot.supervised)
-        if warning and request.snapshot.cameras is not None:
+        away = degrees_outside(o, request.snapshot.supervised)
+        if away > SAFE_DEGREES and request.snapshot.cameras is not None:
+            warning = tr("Not seen: {angle:.0f}° from the nearest supervised view.").format(angle=away)
             plate(painter, [warning], QPointF(_MARGIN, bottom + 4), _WARN)
 
     def _paint_legend(self, painter: QPainter) -> None:
@@ -99,7 +102,7 @@ class Overlay(QWidget):
         if mode == Mode.FLOW:
             paint_wheel(painter, corner, bounds[1])
         elif mode in SCALAR_MODES:
-            paint_scale(painter, corner, bounds, UNITS.get(mode, ""))
+            paint_scale(painter, corner, bounds, tr(UNITS[mode]) if UNITS.get(mode) else "")
         elif mode in (Mode.INSTANCE, Mode.INSTANCE_SOFT):
             snapshot = self.report.request.snapshot
             named = [snapshot.object_of(int(i)) for i in snapshot.object_ids]

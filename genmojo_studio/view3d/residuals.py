@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import cv2
 import numpy as np
 
 from genmojo_core.clip.cameras import View
@@ -25,6 +24,8 @@ def residuals(
 
     `draw` gives pictures of the snapshot at its frame. Without cameras everything is 0.
     """
+    import cv2  # see colouring.palette_rgb
+
     errors = np.zeros(len(snapshot), np.float32)
     if snapshot.cameras is None or not len(snapshot):
         return errors

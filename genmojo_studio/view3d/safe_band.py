@@ -21,12 +21,6 @@ def degrees_outside(orbit: Orbit, supervised: np.ndarray) -> float:
     return math.degrees(math.acos(min(max(cosine, -1.0), 1.0)))
 
 
-def badge(orbit: Orbit, supervised: np.ndarray) -> str:
-    """A warning for a view outside the safe band, "" inside."""
-    away = degrees_outside(orbit, supervised)
-    return "" if away <= SAFE_DEGREES else f"Not supervised: {away:.0f}° from the nearest view that was"
-
-
 def _directions(angles: np.ndarray) -> np.ndarray:  # (M, 2) degrees -> (M, 3) unit
     """Unit vectors from the target towards the cameras, in the input camera's axes."""
     elevation, azimuth = np.deg2rad(angles).T

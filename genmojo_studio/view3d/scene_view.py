@@ -10,12 +10,13 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from PySide6.QtCore import QEasingCurve, QEvent, QObject, QPointF, Qt, QTimer, QVariantAnimation, Signal
+from PySide6.QtCore import QEasingCurve, QEvent, QPointF, Qt, QTimer, QVariantAnimation, Signal
 from PySide6.QtGui import QCloseEvent, QMouseEvent, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.errors import GenmojoError
+from genmojo_studio.translate import tr
 from genmojo_studio.view3d import navigation
 from genmojo_studio.view3d.cpu_view import CpuView
 from genmojo_studio.view3d.frames import FrameReport, FrameRequest
@@ -30,8 +31,7 @@ from genmojo_studio.view3d.splat_view import SplatView
 REST_MS = 180  # after the last movement for so long, full detail is drawn
 TURN_MS = 350  # an animated change of view
 _CLICK_PIXELS = 4
-_NO_GL = "No OpenGL here: the processor draws. Everything works, large scenes turn slower."
-_SOFT_GL = "OpenGL is emulated here: the processor draws directly, which is faster."
+SOFT_BANNER_MS = 8000  # news that changes nothing goes away by itself
 
 
 class SceneView(QWidget):
@@ -269,8 +269,11 @@ class SceneView(QWidget):
             self._use(SplatView(self))
         else:
             self._use(CpuView(self))
-            if engine == "auto":
-                self.overlay.message = _SOFT_GL if kind == GlKind.SOFTWARE else _NO_GL
+            if engine == "auto" and kind == GlKind.MISSING:
+                self.overlay.message = _no_gl()
+            elif engine == "auto":
+                self.overlay.message = tr("OpenGL is emulated here: the processor draws directly, which is faster.")
+                QTimer.singleShot(SOFT_BANNER_MS, self, lambda: self.set_message(""))
 
     def _use(self, surface: SplatView | CpuView) -> None:
         """Put a surface under the overlay."""
@@ -287,10 +290,10 @@ class SceneView(QWidget):
             old = self.surface
             self._use(CpuView(self))
             old.deleteLater()
-            self.set_message(f"{_NO_GL} ({reason})")
+            self.set_message(f"{_no_gl()} ({reason})")
             self._redraw()
         else:
-            self.set_message(f"The view cannot be drawn: {reason}")
+            self.set_message(tr("The view cannot be drawn: {reason}").format(reason=reason))
 
     def _drawn(self, report: FrameReport) -> None:
         """A frame is on the screen."""
@@ -333,6 +336,6 @@ class SceneView(QWidget):
         return FrameRequest(snapshot, reference, self._orbit, self._look, self.time, moving, picture)
 
 
-def watch_closing(view: SceneView, owner: QObject) -> None:
-    """Free the view's surface when the object that owns it goes (a dock that is deleted, not closed)."""
-    owner.destroyed.connect(view.surface.drop_gl)
+def _no_gl() -> str:
+    """Why the processor draws."""
+    return tr("No OpenGL here: the processor draws. Everything works, large scenes turn slower.")

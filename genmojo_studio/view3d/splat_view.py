@@ -13,7 +13,7 @@ from typing import Any
 import moderngl
 import numpy as np
 from PySide6.QtCore import Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent, QSurfaceFormat
+from PySide6.QtGui import QCloseEvent, QShowEvent
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QWidget
 
@@ -21,21 +21,11 @@ from genmojo_core.clip.cameras import View
 from genmojo_core.errors import GenmojoError
 from genmojo_studio.view3d.frames import Feeder, FrameReport, FrameRequest
 from genmojo_studio.view3d.look import SCALAR_MODES
-from genmojo_studio.view3d.quality import FULL, Detail
+from genmojo_studio.view3d.quality import FULL, Detail, Quality
 from genmojo_studio.view3d.renderer import SplatRenderer
 
+_PATIENCE_MS = 1500  # a context is there by then, or never
 _PREFETCH_MS = 30  # pause between two frames brought to the GPU while nothing moves
-
-
-def use_core_profile() -> None:
-    """Ask Qt for OpenGL 3.3 core in all windows to come; call before QApplication is made."""
-    wanted = QSurfaceFormat()
-    wanted.setVersion(3, 3)
-    wanted.setProfile(QSurfaceFormat.OpenGLContextProfile.CoreProfile)
-    wanted.setSamples(0)
-    wanted.setDepthBufferSize(0)
-    wanted.setSwapInterval(1)
-    QSurfaceFormat.setDefaultFormat(wanted)
 
 
 class SplatView(QOpenGLWidget):
@@ -115,6 +105,11 @@ class SplatView(QOpenGLWidget):
             self._prefetch.start()
         self.drawn.emit(FrameReport(request, ms, quality, bounds, self.renderer.order_is_exact))
 
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
+        """Where Qt cannot make a context it says nothing: look whether there is one."""
+        super().showEvent(event)
+        QTimer.singleShot(_PATIENCE_MS, self, self._check_context)
+
     def drop_gl(self) -> None:
         """Free everything on the GPU; drawing again needs `initializeGL`."""
         if self.renderer is None:
@@ -130,7 +125,12 @@ class SplatView(QOpenGLWidget):
         self.drop_gl()
         super().closeEvent(event)
 
-    def _quality(self, request: FrameRequest) -> Any:
+    def _check_context(self) -> None:
+        """Tell the owner that there is no OpenGL."""
+        if self.isVisible() and (self.context() is None or not self.isValid()):
+            self.failed.emit("no context")
+
+    def _quality(self, request: FrameRequest) -> Quality:
         """Full at rest; what can be afforded while something moves."""
         if not request.moving:
             self._was_moving = False
