@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,10 +15,10 @@ from genmojo_core.clip.cameras import Cameras, View, check_cameras
 from genmojo_core.errors import GenmojoError
 
 if TYPE_CHECKING:
-    from genmojo_core.measure.views import Picture
+    from genmojo_core.measure.film import Shot
     from genmojo_core.store.scene_file import BakedScene
 
-MODES = ("rgb", "depth", "instance", "flow")
+MODES = ("rgb", "depth", "instance", "flow", "opacity", "normal")
 
 
 def add_commands(commands: Any) -> None:
@@ -34,6 +33,13 @@ def add_commands(commands: Any) -> None:
     render.add_argument("--mode", choices=MODES, default="rgb", help="depth: near is bright; instance, flow: colours")
     render.add_argument("--foreground", action="store_true", help="objects only, RGBA with straight alpha")
     render.add_argument("--size", type=int, metavar="PX", help="short side, default the clip's own")
+    film = render.add_argument_group("camera moves")
+    film.add_argument("--turntable", type=float, metavar="DEG", help="turn so far round the objects, e.g. 360")
+    film.add_argument("--path", metavar="NAME|json", help="a camera path of the scene file, or one as a JSON file")
+    film.add_argument("--seconds", type=float, default=6.0, help="length of the turntable")
+    film.add_argument("--time", choices=("freeze", "play", "loop"), default="freeze", help="scene time on a turntable")
+    film.add_argument("--at", type=int, default=0, metavar="FRAME", help="frame the turntable starts from")
+    film.add_argument("--fps", type=float, default=24.0, help="pictures a second of a camera move")
     render.set_defaults(run=run_render)
     tracks = commands.add_parser("tracks", help="follow query points through a scene, in 2D and 3D")
     tracks.add_argument("scene", metavar="scene.h5")
@@ -43,20 +49,24 @@ def add_commands(commands: Any) -> None:
 
 
 def run_render(args: argparse.Namespace) -> dict[str, Any]:
-    """Draw every frame asked for and write it."""
+    """Draw every frame asked for, or a camera move, and write it."""
+    from genmojo_core.measure import film
     from genmojo_core.store import scene_hdf5
 
     scene = scene_hdf5.read(args.scene)
-    chosen = _chosen(args, scene)
-    views = _views(args, scene)
-    images = _images(args, scene, chosen, views)
+    shots = _moves(args, scene)
+    transparent = args.foreground and not args.output.lower().endswith(film.VIDEO)
+    if shots is None:
+        chosen = _chosen(args, scene)
+        views = _views(args, scene)
+        images = _images(args, scene, chosen, views)
+        numbers, fps, view = [int(scene.frame_index[t]) for t in chosen], scene.fps, views[0]
+    else:
+        images = film.pictures(scene, shots, args.mode, args.foreground, transparent)
+        numbers, fps, view = list(range(len(shots))), args.fps, shots[0].view
     with progress("rendering") as tell:
-        if args.output.lower().endswith((".mp4", ".mov")):
-            _write_video(args.output, images, scene.fps, len(chosen), tell)
-            paths = [args.output]
-        else:
-            paths = _write_pictures(args.output, images, [int(scene.frame_index[t]) for t in chosen], tell)
-    return {"path": args.output, "frames": len(chosen), "size": [views[0].width, views[0].height], "files": paths}
+        paths = film.write_film(images, args.output, fps, numbers, tell)
+    return {"path": args.output, "frames": len(numbers), "size": [view.width, view.height], "files": paths}
 
 
 def run_tracks(args: argparse.Namespace) -> dict[str, Any]:
@@ -123,65 +133,30 @@ def _given_cameras(path: str, scene: BakedScene) -> Cameras:
     return cameras
 
 
+def _moves(args: argparse.Namespace, scene: BakedScene) -> list[Shot] | None:
+    """The camera move asked for, None if there is none. Raises GenmojoError("argument") for two at once."""
+    from genmojo_core.measure import film
+
+    if args.path is not None and args.turntable is not None:
+        raise GenmojoError("argument", "a film follows one camera", "--path, --turntable", "give one of them")
+    if args.path is not None:
+        from genmojo_core.store.camera_paths import find_path
+
+        return film.sized(film.along(scene, find_path(args.path, args.scene), args.fps), args.size)
+    if args.turntable is None:
+        return None
+    shots = film.turntable(scene, args.at, degrees=args.turntable, seconds=args.seconds, elevation=args.elevation,
+                           fps=args.fps, time_mode=args.time)  # fmt: skip
+    return film.sized(shots, args.size)
+
+
 def _images(args: argparse.Namespace, scene: BakedScene, chosen: list[int], views: list[View]) -> Iterator[np.ndarray]:
     """Pictures in the mode asked for: (H, W), (H, W, 3) or (H, W, 4), uint8 or uint16."""
+    from genmojo_core.measure import film
     from genmojo_core.measure.views import Look, render_frame
 
+    transparent = args.foreground and not args.output.lower().endswith(film.VIDEO)
     for t in chosen:
         after = views[min(t + 1, len(views) - 1)] if args.mode == "flow" else None
-        picture = render_frame(scene, t, views[t], Look(objects_only=args.foreground, flow_to=after))
-        yield _image(args, scene, picture)
-
-
-def _image(args: argparse.Namespace, scene: BakedScene, picture: Picture) -> np.ndarray:
-    """One picture."""
-    from genmojo_core.measure import sheet
-
-    video = args.output.lower().endswith((".mp4", ".mov"))
-    if args.mode == "depth":
-        return sheet.depth_picture(picture)
-    if args.mode == "instance":
-        return sheet.label_picture(scene, picture)
-    if args.mode == "flow" and picture.flow is not None:
-        return sheet.flow_picture(picture.flow)
-    return picture.straight_rgba() if args.foreground and not video else sheet.to_bytes(picture.on())
-
-
-def _write_pictures(
-    folder: str, images: Iterator[np.ndarray], numbers: list[int], tell: Callable[[float], None]
-) -> list[str]:
-    """NNNNN.png by the clip's frame numbers."""
-    from genmojo_core.measure.sheet import encode_png
-    from genmojo_core.store.atomic import write_bytes
-
-    if Path(folder).is_file():
-        raise GenmojoError("io", "is a file", folder, "give a folder or a name ending in .mp4")
-    paths = []
-    for i, (number, image) in enumerate(zip(numbers, images, strict=True)):
-        paths.append(str(Path(folder) / f"{number:05d}.png"))
-        write_bytes(paths[-1], encode_png(image))
-        tell((i + 1) / len(numbers))
-    return paths
-
-
-def _write_video(
-    path: str, images: Iterator[np.ndarray], fps: float, count: int, tell: Callable[[float], None]
-) -> None:
-    """H.264 (MPEG-4 where that encoder is missing); odd sizes lose their last row or column."""
-    from fractions import Fraction
-
-    import av
-
-    from genmojo_core.store.atomic import staged
-
-    codec = "libx264" if "libx264" in av.codecs_available else "mpeg4"
-    with staged(path) as part, av.open(str(part), "w", format="mp4") as container:
-        stream: Any = container.add_stream(codec, rate=Fraction(fps).limit_denominator(1001))
-        stream.pix_fmt = "yuv420p"
-        for i, image in enumerate(images):
-            even = np.ascontiguousarray(image[: image.shape[0] // 2 * 2, : image.shape[1] // 2 * 2, :3])
-            if i == 0:
-                stream.height, stream.width = even.shape[:2]
-            container.mux(stream.encode(av.VideoFrame.from_ndarray(even, format="rgb24")))
-            tell((i + 1) / count)
-        container.mux(stream.encode(None))
+        look = Look(objects_only=args.foreground, flow_to=after, normals=args.mode == "normal")
+        yield film.picture_of(scene, render_frame(scene, t, views[t], look), args.mode, transparent)

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from genmojo_core.clip.cameras import View
-from genmojo_core.conventions import dc_to_rgb, orbit_camera
+from genmojo_core.conventions import dc_to_rgb, orbit_camera, quaternion_to_matrix
 from genmojo_core.errors import GenmojoError
 from genmojo_core.render.cpu.rasterize import rasterize
 from genmojo_core.render.rasterizer import Splats
-from genmojo_core.store.scene_file import BakedScene
+from genmojo_core.store.scene_file import BakedScene, Frame
 
 ALPHA_FOR_DEPTH = 1e-4  # below this coverage a pixel has no depth (and no flow)
 WHITE = (1.0, 1.0, 1.0)
@@ -30,6 +30,8 @@ class Picture:
         flow: (H, W, 2) pixels to the next frame, alpha-normalised, or None.
         backdrop: what lies behind by default: white behind objects alone, black behind a scene with its background,
             as while it was optimised.
+        normal: (H, W, 3) thinnest axis of the Gaussians, turned towards the camera, in its axes with y and z turned
+            round (x right, y up, z to the viewer), alpha-normalised, or None.
     """
 
     color: np.ndarray
@@ -38,6 +40,7 @@ class Picture:
     labels: np.ndarray
     flow: np.ndarray | None = None
     backdrop: tuple[float, float, float] = WHITE
+    normal: np.ndarray | None = None
 
     def on(self, backdrop: tuple[float, float, float] | np.ndarray | None = None) -> np.ndarray:
         """(H, W, 3) float32 0..1 colour over a backdrop (one colour or an image; None: the picture's own), clamped."""
@@ -67,32 +70,36 @@ class Look:
         objects_only: leave the background out.
         color_change: False drops the change of colour over time (to see how much of the fit it explains).
         flow_to: camera of the next frame, or None for no flow.
+        normals: also draw normals.
     """
 
     objects_only: bool = False
     color_change: bool = True
     flow_to: View | None = None
+    normals: bool = False
 
 
-def render_frame(scene: BakedScene, t: int, view: View, look: Look = Look()) -> Picture:  # noqa: B008 - frozen
-    """Draw frame t (0..T-1) from a camera.
+def render_frame(scene: BakedScene, t: float, view: View, look: Look = Look()) -> Picture:  # noqa: B008 - frozen
+    """Draw time t (0..T-1, fractions between frames) from a camera.
 
     Flow is the projection at t + 1 through `look.flow_to` minus the one at t through `view` (last frame: no motion of
     objects). Raises GenmojoError("empty") for a file without Gaussians, "argument" for a frame that is not there.
     """
     if len(scene.xyz) == 0:
         raise GenmojoError("empty", "holds tracks but no Gaussians", "scene", "give a scene written by optimize")
-    if not 0 <= t < len(scene):
+    if not 0 <= t <= len(scene) - 1:
         raise GenmojoError("argument", f"there is no frame {t}, the scene has {len(scene)}", "scene")
-    frame = scene.frame(t)
+    frame = scene.frame_at(t)
     owner = frame.object_index
     background = np.array([o.is_background for o in scene.objects])
     keep = ~background[owner] if look.objects_only else np.ones(len(owner), bool)
     rgb = frame.rgb if look.color_change or scene.d_dc is None else _constant_color(scene)
     parts = [rgb, np.eye(len(scene.objects), dtype=np.float32)[owner]]
     if look.flow_to is not None:
-        after = scene.frame(min(t + 1, len(scene) - 1))
+        after = scene.frame_at(min(t + 1, len(scene) - 1))
         parts.append(_pixels(after.means, look.flow_to) - _pixels(frame.means, view))
+    if look.normals:
+        parts.append(_normals(frame, view))
     features = np.concatenate(parts, axis=1).astype(np.float32)
     splats = Splats(frame.means[keep], frame.quats[keep], frame.scales[keep], frame.opacities[keep], features[keep])
     drawn = rasterize(splats, view)
@@ -101,10 +108,11 @@ def render_frame(scene: BakedScene, t: int, view: View, look: Look = Look()) -> 
     share = np.where(seen, drawn.alpha, 1.0)
     flow = None
     if look.flow_to is not None:
-        flow = np.where(seen[..., None], drawn.features[..., count:] / share[..., None], 0)
+        flow = np.where(seen[..., None], drawn.features[..., count : count + 2] / share[..., None], 0)
+    normal = np.where(seen[..., None], drawn.features[..., -3:] / share[..., None], 0) if look.normals else None
     depth = np.where(seen, drawn.depth / share, 0.0).astype(np.float32)
     backdrop = BLACK if background[owner[keep]].any() else WHITE
-    return Picture(drawn.features[..., :3], drawn.alpha, depth, drawn.features[..., 3:count], flow, backdrop)
+    return Picture(drawn.features[..., :3], drawn.alpha, depth, drawn.features[..., 3:count], flow, backdrop, normal)
 
 
 def orbit_target(scene: BakedScene) -> np.ndarray:  # (3,) world
@@ -135,6 +143,16 @@ def short_side_size(size: tuple[int, int], short_side: int) -> tuple[int, int]:
 def _constant_color(scene: BakedScene) -> np.ndarray:
     """Colours without their change over time."""
     return dc_to_rgb(scene.dc)
+
+
+def _normals(frame: Frame, view: View) -> np.ndarray:  # (N, 3)
+    """Thinnest axis of every Gaussian, turned towards the camera: x right, y up, z to the viewer."""
+    axes = quaternion_to_matrix(frame.quats)
+    thin = np.take_along_axis(axes, np.argmin(frame.scales, axis=1)[:, None, None], axis=2)[..., 0]
+    rotation = view.world_to_camera[:3, :3]
+    local, ray = thin @ rotation.T, frame.means @ rotation.T + view.world_to_camera[:3, 3]
+    facing = np.where((local * ray).sum(1, keepdims=True) > 0, -local, local)
+    return facing * np.array([1.0, -1.0, -1.0])
 
 
 def _pixels(means: np.ndarray, view: View) -> np.ndarray:  # (N, 3) world -> (N, 2) px

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -108,6 +109,21 @@ class BakedScene:
     def object_index(self) -> np.ndarray:  # (N,) int64
         """Position in `objects` of every Gaussian's owner."""
         return np.repeat(np.arange(len(self.objects)), [o.count for o in self.objects])
+
+    def frame_at(self, time: float) -> Frame:
+        """All Gaussians at a time 0..T-1 between two frames: centres and sizes on the straight way, turns shortest."""
+        t = min(max(math.floor(time), 0), len(self) - 1)
+        share = time - t
+        one = self.frame(t)
+        if share <= 0 or t + 1 >= len(self):
+            return one
+        two = self.frame(t + 1)
+        sign = np.where((one.quats * two.quats).sum(1, keepdims=True) < 0, -1.0, 1.0)
+        quats = normalise_quaternions((1 - share) * one.quats + share * sign * two.quats)
+        scales = one.scales ** (1 - share) * two.scales**share
+        means, rgb = ((1 - share) * a + share * b for a, b in ((one.means, two.means), (one.rgb, two.rgb)))
+        return Frame(means.astype(np.float32), quats.astype(np.float32), scales.astype(np.float32), one.opacities,
+                     rgb.astype(np.float32), one.object_index)  # fmt: skip
 
     def frame(self, t: int) -> Frame:
         """All Gaussians at frame t (0..T-1) in world space: x = s R (xyz + d_xyz) + t, sigma times s."""
