@@ -45,7 +45,7 @@ State = Literal[
 ]
 ENDED: tuple[State, ...] = ("done", "failed")
 COMMANDS = ("pause", "resume", "step", "run_to_next_stage", "set_parameter", "checkpoint", "stop", "look", "sweep",
-            "set_view", "ping")  # fmt: skip
+            "set_view", "write_scene", "ping")  # fmt: skip
 Cadence = Literal["off", "slow", "live"]
 
 _HEAD = struct.Struct(">I")

@@ -1,0 +1,1 @@
+"""Taking scenes away: files, pictures and films, made by a second process with progress and cancel."""
