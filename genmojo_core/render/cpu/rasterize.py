@@ -12,6 +12,7 @@ import numpy as np
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.errors import GenmojoError
+from genmojo_core.kernels.buffers import take
 from genmojo_core.kernels.threads import run_jobs, run_ranges, scratch
 from genmojo_core.render.cpu.backward import Slopes, slope_floats, slope_tiles
 from genmojo_core.render.cpu.bins import TILE, Bins, bin_splats, depth_order, gather
@@ -28,8 +29,8 @@ SPLATS_PER_JOB = 2048
 class Layout:
     """Where the features of one pass lie among its slots.
 
-    Slot 0 is depth, then the attached features, one empty slot if that makes the number odd, then the detached ones
-    and again up to an even number.
+    Slot 0 is depth, then one empty slot if that makes the attached ones even, the attached features, the detached ones,
+    and again an empty one up to an even number. So all features lie side by side.
     """
 
     attached: range  # columns of the features
@@ -48,10 +49,18 @@ class Layout:
     def columns(self) -> list[tuple[slice, slice]]:
         """(columns of the features, slots) pairs."""
         pairs = []
-        for columns, first in ((self.attached, 1), (self.detached, self.attached_slots)):
+        for columns, first in (
+            (self.attached, self.attached_slots - len(self.attached)),
+            (self.detached, self.attached_slots),
+        ):
             if len(columns):
                 pairs.append((slice(columns.start, columns.stop), slice(first, first + len(columns))))
         return pairs
+
+    def feature_slots(self) -> slice:
+        """Where all features lie, in their order."""
+        first = self.attached_slots - len(self.attached)
+        return slice(first, first + len(self.attached) + len(self.detached))
 
     def feature_of_slot(self) -> np.ndarray:
         """(slots,) int64 column of the features in each slot, -1 for depth and empty slots."""
@@ -84,13 +93,10 @@ class Drawn:
         """Views into the planes: features (H, W, C), depth (H, W), alpha (H, W), float32."""
         height, width = self.lens.height, self.lens.width
         first = self.passes[0].planes[:, :height, :width]
-        parts = {}
+        planes = []
         for one in self.passes:
-            for columns, slots in one.layout.columns():
-                parts[columns.start] = one.planes[1 + slots.start : 1 + slots.stop, :height, :width]
-        planes = [parts[key] for key in sorted(parts)]
-        if not planes:
-            planes = [np.zeros((0, height, width), np.float32)]
+            slots = one.layout.feature_slots()
+            planes.append(one.planes[1 + slots.start : 1 + slots.stop, :height, :width])
         features = planes[0] if len(planes) == 1 else np.concatenate(planes)
         return Rendering(features.transpose(1, 2, 0), first[1], first[0])
 
@@ -173,11 +179,12 @@ def _draw_pass(drawn: Drawn, layout: Layout, ellipses: Ellipses, features: np.nd
     """Blend the features of one pass."""
     bins, lens = drawn.bins, drawn.lens
     count, slots = len(bins.order), layout.slots
-    records = np.empty((count, GEOMETRY + slots), np.float32)
+    records = take((count, GEOMETRY + slots))
     source = (features, layout.feature_of_slot())
     run_ranges(lambda a, b: gather(a, b, bins.order, ellipses, source, records), count, SPLATS_PER_JOB)
-    planes = np.empty((1 + slots, bins.tiles_y * TILE, bins.tiles_x * TILE), np.float32)
-    hits = np.zeros(len(bins.rank), np.uint32)
+    planes = take((1 + slots, bins.tiles_y * TILE, bins.tiles_x * TILE))
+    hits = take((len(bins.rank),), np.uint32)
+    hits.fill(0)
     drawing = Drawing(
         records.ravel(), slots, layout.attached_slots, planes.ravel(), hits, lens.width, lens.height
     )  # fmt: skip
@@ -193,7 +200,7 @@ def _add_gradients(
     """Add the gradients of one pass to `out`; depth and alpha count in the first pass only."""
     bins, layout = drawn.bins, one.layout
     height, width = drawn.lens.height, drawn.lens.width
-    planes = np.zeros(one.planes.shape, np.float32)
+    planes = _blank(one, height, width, depth=first)
     if first:
         planes[0, :height, :width] = upstream.alpha
         planes[1, :height, :width] = upstream.depth
@@ -201,7 +208,7 @@ def _add_gradients(
     for columns, places in layout.columns():
         planes[1 + places.start : 1 + places.stop, :height, :width] = features[columns]
     row = -(-(MOMENTS + layout.slots) // 8) * 8
-    slopes = Slopes(planes.ravel(), np.empty(len(bins.rank) * row, np.float32), row)
+    slopes = Slopes(planes.ravel(), take((len(bins.rank) * row,)), row)
     tiles = bins.tiles_x * bins.tiles_y
     floats = slope_floats(layout.slots)
     run_ranges(lambda a, b: slope_tiles(a, b, one.drawing, bins, slopes, scratch(floats)), tiles, _tile_chunk(bins))
@@ -213,6 +220,17 @@ def _add_gradients(
         gather_gradients(index, span, bins, scene, sums, out, scratch(SCRATCH))
 
     run_jobs(job, -(-ranks // SPLATS_PER_JOB))
+
+
+def _blank(one: Pass, height: int, width: int, *, depth: bool) -> np.ndarray:
+    """Planes for a pass's upstream gradients: 0 wherever nothing will be written."""
+    planes = take(one.planes.shape)
+    planes[:, height:] = 0
+    planes[:, :height, width:] = 0
+    slots = one.layout.feature_slots()
+    planes[2 if depth else 0 : 1 + slots.start] = 0
+    planes[1 + slots.stop :] = 0
+    return planes
 
 
 def _tile_chunk(bins: Bins) -> int:

@@ -1,0 +1,47 @@
+"""Large arrays used again instead of given back to the system, which would hand out fresh pages at every step.
+
+`take` gives an array that nobody else holds any more. An array is free again as soon as every view of it is gone: the
+number of references that Python keeps of each object tells. Filling fresh pages costs a tenth of a small picture.
+"""
+
+from __future__ import annotations
+
+import sys
+import threading
+from typing import Any
+
+import numpy as np
+
+LIMIT = 2**28  # bytes kept in all; what goes beyond is an ordinary array
+SMALLEST = 2**16  # bytes: below, the system's own allocation is as fast
+
+_kept: list[np.ndarray] = []
+_lock = threading.Lock()
+_COUNTS = sys.implementation.name == "cpython"
+_sample = [np.empty(1)]
+_FREE = sys.getrefcount(_sample[0]) if _COUNTS else 0  # of an array that only a list holds
+
+
+def take(shape: tuple[int, ...], dtype: Any = np.float32) -> np.ndarray:
+    """An array of any content, C order; free for others once the caller's last view of it is gone."""
+    count = int(np.prod(shape, dtype=np.int64))
+    size = count * np.dtype(dtype).itemsize
+    if size < SMALLEST or size > LIMIT or not _COUNTS:
+        return np.empty(shape, dtype)
+    with _lock:
+        return _free(size)[:size].view(dtype).reshape(shape)
+
+
+def _free(size: int) -> np.ndarray:
+    """A kept array of at least `size` bytes and at most twice that, or a new one that is kept where there is room."""
+    for place in range(len(_kept)):
+        if size <= _kept[place].size <= 2 * size and sys.getrefcount(_kept[place]) == _FREE:
+            return _kept[place]
+    fresh = np.empty(size + (-size) % 64, np.uint8)
+    while _kept and sum(a.size for a in _kept) + fresh.size > LIMIT:
+        idle = next((i for i in range(len(_kept)) if sys.getrefcount(_kept[i]) == _FREE), None)
+        if idle is None:
+            return fresh
+        del _kept[idle]
+    _kept.append(fresh)
+    return fresh
