@@ -155,6 +155,10 @@ class WorkerClient(QObject):
         """Send all frames as they stand now; without it they come by themselves, every few seconds to minutes."""
         return self._command("sweep")
 
+    def write_scene(self, path: str) -> int:
+        """Write the scene as it stands while the run goes on; the event SceneWritten tells when it is there."""
+        return self._command("write_scene", {"path": path})
+
     def set_view(self, cadence: Cadence) -> int:
         """How often previews come: "live" (as often as 3 % of the time allows), "slow" (1 Hz) or "off"."""
         return self._command("set_view", {"cadence": cadence})

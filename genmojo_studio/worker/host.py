@@ -117,6 +117,7 @@ class Optimise:
     def run(self, host: Host) -> None:
         """Prepare, optimise, write. Raises GenmojoError for what is wrong with the input."""
         from genmojo_core.config import preset
+        from genmojo_core.store import scene_hdf5
         from genmojo_studio.worker import preparing
         from genmojo_studio.worker.first_cloud import first_cloud
 
@@ -138,11 +139,11 @@ class Optimise:
                                               "guesses": list(clip.guesses), "config": config.to_json()}})  # fmt: skip
         run = preparing.build(clip, plan, config, request)
         drive(host, run)
-        if session.keep and run.steps_done >= 0 and hasattr(run.run, "scene"):
+        if session.keep and hasattr(run.run, "scene"):
             session.enter("finishing")
             host.announce("writing", "writing the scene", 120.0)
             path = Path(request.output) if request.output else host.folder / runs.SCENE
-            preparing.write_scene(run, path)
+            scene_hdf5.write(run.run.bake(), path)
             host.tell({"type": "event", "event": {"event": "SceneWritten", "path": str(path)}})
         if session.failure is not None:
             raise GenmojoError("numeric", session.failure.message.rstrip("."))

@@ -7,7 +7,6 @@ import importlib
 import threading
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 
@@ -18,10 +17,10 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.config import RunConfig, preset
 from genmojo_core.effects import decide
 from genmojo_core.effects.plan import EffectPlan
+from genmojo_core.errors import GenmojoError
 from genmojo_core.estimate.complete import complete
 from genmojo_core.estimate.masks import Box
 from genmojo_core.estimate.models import Models
-from genmojo_core.store.scene_file import BakedScene
 from genmojo_studio.view3d.snapshot import SnapshotObject
 from genmojo_studio.worker.preview_codec import FrameArrays, Setting
 from genmojo_studio.worker.protocol import RunRequest
@@ -114,9 +113,21 @@ class WatchedRun:
         """The Gaussians of frame t."""
         return self.run.live(t)
 
-    def bake(self) -> BakedScene:
-        """The scene as a file holds it."""
-        return self.run.bake()
+    def write_scene(self, path: str, told: Callable[[str], None]) -> None:
+        """Bake now; write on a thread, which the end of the program waits for."""
+        from genmojo_core.store import scene_hdf5
+
+        scene = self.run.bake()
+
+        def write() -> None:
+            try:
+                scene_hdf5.write(scene, path)
+            except GenmojoError as error:
+                told(error.sentence())
+            else:
+                told("")
+
+        threading.Thread(target=write, name="genmojo-write").start()
 
     def setting(self) -> Setting:
         """Objects with the colours the scene file will give them, cameras of the source, what views turn about."""
@@ -163,10 +174,3 @@ def _models(request: RunRequest) -> Models | None:
     """External models named by the command line's option names."""
     names = ("depth_model", "depth_file", "mask_model", "detector", "find")
     return models_of(argparse.Namespace(**{name: request.models.get(name) for name in names}))
-
-
-def write_scene(run: WatchedRun, path: Path) -> None:
-    """Bake and write the scene file. Raises GenmojoError("io")."""
-    from genmojo_core.store import scene_hdf5
-
-    scene_hdf5.write(run.bake(), path)

@@ -59,6 +59,10 @@ class Optimisation(Viewed, Protocol):
         """Write a checkpoint now."""
         ...
 
+    def write_scene(self, path: str, told: Callable[[str], None]) -> None:
+        """Write the scene as it stands, beside the run; `told` gets "" or what went wrong, from another thread."""
+        ...
+
 
 class Session:
     """One run under command.
@@ -263,6 +267,18 @@ class Session:
             raise GenmojoError("argument", "there is no scene yet", "", "wait for the first preview")
         self.publisher.sweep_all(self._run, self.step)
         return True
+
+    def _write_scene(self, path: str) -> str:
+        if self._run is None or not self._shown:
+            raise GenmojoError("argument", "there is no scene yet", "", "wait for the first preview")
+
+        def told(fault: str) -> None:
+            event = {"event": "Warned", "code": "scene_not_written", "message": fault} if fault else {
+                "event": "SceneWritten", "path": str(path)}  # fmt: skip
+            self.tell({"type": "event", "event": event})
+
+        self._run.write_scene(str(path), told)
+        return str(path)
 
     def _set_view(self, cadence: str) -> str:
         self.governor.set_cadence(cadence)

@@ -12,7 +12,7 @@ import os
 import signal
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -82,6 +82,10 @@ class FakeRun:
     def checkpoint(self) -> events.Checkpointed | None:
         write_bytes(self.checkpoint_path, json.dumps({"step": self.done}).encode())
         return events.Checkpointed(0.0, 0.0, self.done, str(self.checkpoint_path))
+
+    def write_scene(self, path: str, told: Callable[[str], None]) -> None:
+        write_bytes(path, b"scene so far")
+        told("")
 
     def __iter__(self) -> Iterator[events.Event]:
         yield events.Preview(0.0, 0.0, "first scene", 0, self.reference, 20.0)

@@ -82,6 +82,9 @@ def test_parameters_checkpoints_and_refusals(tmp_path):
         ok, sentence = window.answer(window.client.set_parameter("rates.means", "fast"))
         assert not ok and "cannot be" in sentence
         assert window.answer(window.client.checkpoint())[0]
+        assert window.answer(window.client.write_scene(str(tmp_path / "now.h5")))[0]
+        window.until(lambda: any(e["event"] == "SceneWritten" for e in window.events))
+        assert (tmp_path / "now.h5").exists()
         changed = [e for e in window.events if e["event"] == "ParameterChanged"]
         assert changed[-1]["new"] == 0.25 and changed[-1]["name"] == "rates.means"
         ok, sentence = window.answer(window.client._command("open", {"path": "x"}))
