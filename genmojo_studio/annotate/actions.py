@@ -30,8 +30,8 @@ _MOVE = (
             blender="Left", repeats=True),
     _action("move.stride_next", "On by the stride", ".", "On by the frames of the stride.", cvat="V .", repeats=True),
     _action("move.stride_previous", "Back by the stride", ",", "Back by the stride.", cvat="C ,", repeats=True),
-    _action("move.accept", "Accept all points and go on", "Return Enter", "Confirms the points here that nothing speaks "
-            "against, and goes on by the stride or to the point that needs a look."),
+    _action("move.accept", "Accept all points and go on", "Return Enter", "Confirms the points here that nothing "
+            "speaks against, and goes on by the stride or to the point that needs a look."),
     _action("move.accept_back", "Accept and go back", "Shift+Return Shift+Enter", "The same, backwards."),
     _action("move.ten_next", "Ten frames on", "Shift+Right", "Ten frames on.", blender="Ctrl+Alt+Up", repeats=True),
     _action("move.ten_previous", "Ten frames back", "Shift+Left", "Ten back.", blender="Ctrl+Alt+Down", repeats=True),
@@ -51,7 +51,7 @@ _MOVE = (
 )  # fmt: skip
 
 _POINT = (
-    *(_action(f"point.choose_{n}", f"Point {n}", str(n), f"Makes point {n} of the object active.") for n in range(1, 6)),
+    *(_action(f"point.choose_{n}", f"Point {n}", str(n), f"Point {n} of the object is active.") for n in range(1, 6)),
     *(_action(f"point.object_{n}", f"Object {n}", f"Shift+{n}", f"Makes object {n} active.") for n in range(1, 6)),
     _action("point.next", "Next point", "Alt+Down", "The next point; in the frame Tab does it too."),
     _action("point.previous", "Previous point", "Alt+Up", "The point before; in the frame Shift+Tab too."),

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from genmojo_core.tracks import edit_tracks
+from genmojo_core.tracks.suspicion import Spot
 from genmojo_studio.annotate import verbs
 from genmojo_studio.annotate.canvas import Tool
 from genmojo_studio.annotate.dialogs import Dialogs
 from genmojo_studio.annotate.going import Going
-from genmojo_studio.annotate.refine_page import Spot
 from genmojo_studio.annotate.session import TRAILS
 from genmojo_studio.translate import tr
 
@@ -52,6 +52,7 @@ def _connect(w: AnnotateWorkspace) -> None:
     work.masks_changed.connect(w.screen_link.refresh)
     work.busy_changed.connect(w.say)
     work.spots_ready.connect(w.refine.set_spots)
+    work.spots_ready.connect(w.play.sheet.refresh)
     work.cutting.connect(w.objects.show_cutting)
     work.tool_changed.connect(w.use_tool)
     w.objects.tool_wanted.connect(work.use_tool)
@@ -79,6 +80,7 @@ class Hands:
         w.canvas.cycled.connect(self.cycle)
         w.play.sheet.painted.connect(self.painted)
         w.refine.spot_chosen.connect(self.show_spot)
+        w.work.spots_ready.connect(self.going.set_spots)
         w.points.seed_wanted.connect(self.dialogs.seed)
         w.review.merge_wanted.connect(self.dialogs.merge)
         w.review.log_wanted.connect(self.dialogs.log)
@@ -160,8 +162,8 @@ class Hands:
     def enabled(self, name: str) -> Callable[[], bool]:
         """When an action is possible."""
         s = self._s
-        needs_track = name.startswith(("track.", "review.fix", "review.approve", "point.key", "point.delete", "point.nudge",
-                                       "point.push", "point.uncertain", "move.key", "move.bisect"))  # fmt: skip
+        needs_track = name.startswith(("track.", "review.fix", "review.approve", "point.key", "point.delete",
+                                       "point.nudge", "point.push", "point.uncertain", "move.key", "move.bisect"))  # fmt: skip
         if name == "track.seed":
             return lambda: self._w.session is s and bool(s.annotation.tracks)
         if needs_track:

@@ -301,10 +301,10 @@ class Canvas(QWidget):
 
     def event(self, event: QEvent) -> bool:
         """Tab goes through the points while the keyboard is here; F6 leaves."""
-        if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
-            if event.key() in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
-                self.cycled.emit(1 if event.key() == Qt.Key.Key_Tab else -1)
-                return True
+        tabs = {Qt.Key.Key_Tab: 1, Qt.Key.Key_Backtab: -1}
+        if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent) and event.key() in tabs:
+            self.cycled.emit(tabs[Qt.Key(event.key())])
+            return True
         return super().event(event)
 
     def leaveEvent(self, event: object) -> None:

@@ -29,7 +29,7 @@ class Dialogs:
 
     def seed(self) -> None:
         """Which tracker, which tracks; then it runs in the background."""
-        self._w.work.tracker.seed(list(self._s.annotation.tracks))
+        self._w.work.tracker.seed([o.id for o in self._s.objects()])
 
     def fix(self) -> None:
         """What is wrong, by a key from 1 to 6; the run marked, or this frame, is meant."""

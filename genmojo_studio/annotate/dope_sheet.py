@@ -63,7 +63,7 @@ class DopeSheet(QAbstractScrollArea):
         self.by_suspicion = on
         self._dirty()
 
-    def refresh(self) -> None:
+    def refresh(self, _what: object = None) -> None:
         """Suspicion has changed."""
         self._dirty()
 
@@ -291,8 +291,9 @@ def _pattern(
     out[faint, :3] = bgr
     out[faint, 3] = 45
     hot = inside & (doubt >= 0.3) & (y >= bottom - 4 * unit)
-    for column in np.flatnonzero(doubt >= 0.3):
-        out[hot[:, column], column] = (*heat_colour(float(doubt[column]))[::-1], 255)
+    if hot.any():
+        heat = np.array([(*heat_colour(d)[::-1], 255) for d in np.linspace(0, 1, 33)], np.uint8)
+        out[hot] = np.broadcast_to(heat[(doubt * 32).astype(int)], out.shape)[hot]
     return out
 
 

@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from genmojo_core.tracks.suspicion import Spot
 from genmojo_studio.annotate import verbs
 from genmojo_studio.annotate.play_panel import Player
-from genmojo_studio.annotate.refine_page import Spot
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.translate import tr
 

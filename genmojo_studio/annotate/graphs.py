@@ -68,8 +68,8 @@ class Graphs(QWidget):
             values = self._values(info.id)
             own = info.id == session.track
             colour = (*point_colour(place, info.number - 1), 255 if own else 70)
-            self._lines.append(self.plot.plot(np.arange(len(values)), values, pen=pg.mkPen(colour, width=2 if own else 1),
-                                              connect="finite"))  # fmt: skip
+            pen = pg.mkPen(colour, width=2 if own else 1)
+            self._lines.append(self.plot.plot(np.arange(len(values)), values, pen=pen, connect="finite"))
             if own:
                 keys = session.annotation.keys(info.id)
                 self._lines.append(self.plot.plot(keys, values[keys], pen=None, symbol="d", symbolSize=9,

@@ -15,19 +15,22 @@ from PySide6.QtWidgets import QApplication, QWidget
 from genmojo_studio.actions import ActionTable
 
 
+Verb = Callable[[], object]
+
+
 class HeldKeys(QObject):
     """Calls `begin()` when a held action's key goes down (its shortcut fires) and `end()` when it comes up."""
 
     def __init__(self, owner: QWidget, actions: ActionTable) -> None:
         super().__init__(owner)
         self._owner, self._actions = owner, actions
-        self._ends: dict[str, Callable[[], object]] = {}
+        self._ends: dict[str, Verb] = {}
         self._down: dict[int, str] = {}
         application = QApplication.instance()
         if application is not None:
             application.installEventFilter(self)
 
-    def add(self, action_id: str, begin: Callable[[], object], tapped: Callable[[], object], end: Callable[[], object]) -> None:
+    def add(self, action_id: str, begin: Verb, tapped: Verb, end: Verb) -> None:
         """Bind an action: `begin` if a key is held for it, `tapped` if it came from a menu, `end` on release."""
         self._ends[action_id] = end
 

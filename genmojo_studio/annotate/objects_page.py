@@ -24,8 +24,8 @@ from PySide6.QtWidgets import (
 
 from genmojo_core.tracks.annotation import ObjectInfo, Touched
 from genmojo_core.tracks.edit_tracks import put_objects
-from genmojo_studio.annotate.canvas import Tool
 from genmojo_studio.annotate.candidates import Figures
+from genmojo_studio.annotate.canvas import Tool
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.track_tree import point_icon
 from genmojo_studio.translate import tr
@@ -66,7 +66,8 @@ class ObjectsPage(QWidget):
         self._filling = False
         self._select()
         chosen = len(self._session.objects())
-        self.note.setText(tr("{n} of at most {most} objects chosen.").format(n=chosen, most=self._session.limit("objects")))
+        most = self._session.limit("objects")
+        self.note.setText(tr("{n} of at most {most} objects chosen.").format(n=chosen, most=most))
 
     def set_figures(self, figures: dict[int, Figures]) -> None:
         """Figures of the masks have been computed."""
@@ -196,9 +197,11 @@ class ObjectsPage(QWidget):
     def _makers(self) -> QHBoxLayout:
         row = QHBoxLayout()
         row.addWidget(QLabel(tr("Add by")))
-        for tool, title, tip in ((Tool.BOX, tr("box"), tr("Draw a rectangle around the object")),
-                                 (Tool.SCRIBBLE, tr("click / scribble"), tr("Click on it or draw over it")),
-                                 (Tool.SCRIBBLE_OUT, tr("not this"), tr("Draw over what is not part of it"))):  # fmt: skip
+        for tool, title, tip in (
+            (Tool.BOX, tr("box"), tr("Draw a rectangle around the object")),
+            (Tool.SCRIBBLE, tr("click / scribble"), tr("Click on it or draw over it")),
+            (Tool.SCRIBBLE_OUT, tr("not this"), tr("Draw over what is not part of it")),
+        ):
             button = QToolButton(text=title, checkable=True, toolTip=tip)
             button.clicked.connect(self._tool_clicked)
             self.tools[tool] = button

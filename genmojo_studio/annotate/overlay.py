@@ -93,8 +93,9 @@ def draw(painter: QPainter, picture: Picture, mapping: Mapping, view: QRectF) ->
             _arrow(painter, mark, centre, view)
 
 
-def draw_mark(painter: QPainter, mark: Mark, centre: QPointF, *, selected: bool = False, radius: float = RADIUS) -> None:
+def draw_mark(painter: QPainter, mark: Mark, centre: QPointF, *, selected: bool = False) -> None:
     """A point's glyph: filled where visible, hollow and dashed where occluded, crossed where out of view."""
+    radius = RADIUS
     colour = QColor(*point_colour(mark.place, mark.point))
     path = glyph_path(mark.point, radius).translated(centre)
     hidden = mark.state in (OCCLUDED, OUT_OF_VIEW)
@@ -220,7 +221,7 @@ def _arrow(painter: QPainter, mark: Mark, target: QPointF, view: QRectF) -> None
     dx, dy = target.x() - middle.x(), target.y() - middle.y()
     share = min(inner.width() / 2 / max(abs(dx), 1e-6), inner.height() / 2 / max(abs(dy), 1e-6))
     tip, angle = QPointF(middle.x() + dx * share, middle.y() + dy * share), math.atan2(dy, dx)
-    corners = [tip + QPointF(r * math.cos(angle + a), r * math.sin(angle + a)) for a, r in ((0, 10), (2.5, 10), (-2.5, 10))]
+    corners = [tip + QPointF(10 * math.cos(angle + a), 10 * math.sin(angle + a)) for a in (0, 2.5, -2.5)]
     painter.setPen(QPen(_DARK, 2))
     painter.setBrush(QColor(*point_colour(mark.place, mark.point)))
     painter.drawPolygon(QPolygonF(corners))

@@ -75,7 +75,7 @@ class PointsPage(QWidget):
             return
         object_id, number = session.active
         hint = self.point_name(number)
-        title = session.title(object_id, number) if session.track is not None else f"{session.title(object_id, number)} {hint}"
+        title = session.title(object_id, number) + ("" if session.track is not None else f" {hint}")
         verb = tr("A click moves {point}.") if session.track is not None else tr("A click places {point}.")
         self.next.setText(verb.format(point=title.strip()))
 

@@ -50,7 +50,8 @@ class Presenter:
             places = {i: n for n, i in enumerate(ids)}
             found = {} if labels is None else contours_of(labels, {i: n for i, n in places.items() if i not in hand})
             for i, masks in hand.items():
-                found |= self._scaled(contours_of(masks[frame].astype(np.uint8) * np.uint8(i), {i: places.get(i, 0)}), masks)
+                lines = contours_of(masks[frame].astype(np.uint8) * np.uint8(i), {i: places.get(i, 0)})
+                found |= self._scaled(lines, masks)
             self._contours[frame] = found
         return self._contours[frame]
 
@@ -79,8 +80,9 @@ class Presenter:
         """Places in `view` of the tracks with glyphs: all if they are few, else the active object's and the first."""
         if len(view.ids) <= DETAILED:
             return np.arange(len(view.ids))
-        own = {i.id for i in self._session.annotation.tracks_of(self._session.active[0])} if len(view.ids) < 500 else set()
-        own |= {self._session.track or 0}
+        own = {self._session.track or 0}
+        if len(view.ids) < 500:
+            own |= {i.id for i in self._session.annotation.tracks_of(self._session.active[0])}
         first = [n for n, track in enumerate(view.ids[:DETAILED].tolist()) if track not in own]
         mine = np.flatnonzero(np.isin(view.ids, list(own)))[:DETAILED]
         return np.concatenate([np.array(first[: DETAILED - len(mine)], int), mine])

@@ -2,32 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtWidgets import QLabel, QLineEdit, QListWidget, QListWidgetItem, QSplitter, QVBoxLayout, QWidget
 
 from genmojo_core.tracks.annotation import KEY
 from genmojo_core.tracks.edit_tracks import update_track
+from genmojo_core.tracks.suspicion import Spot
 from genmojo_studio.annotate.button_panel import grid_of
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.track_tree import TrackTree, state_name
+from genmojo_studio.annotate.tracking import spot_at
 from genmojo_studio.translate import tr
 
 MOST_SHOWN = 200
-
-
-@dataclass(frozen=True)
-class Spot:
-    """A run of frames of a track that may be wrong: worst frame, first and last, how sure (0..1), reasons in words."""
-
-    track: int
-    frame: int
-    first: int
-    last: int
-    doubt: float
-    reasons: tuple[str, ...]
 
 
 class RefinePage(QWidget):
@@ -90,7 +78,7 @@ class RefinePage(QWidget):
         sources = ("–", tr("a person"), tr("tracker"), tr("flow"), tr("line"), tr("import"), tr("hold"))
         made = sources[int(cells.source[0])] if int(cells.source[0]) < len(sources) else "?"
         self.seed.setText(f"{made}, {tr('confidence')} {cells.conf[0]:.2f}")
-        spot = next((s for s in self.spots if s.track == track and s.first <= session.frame <= s.last), None)
+        spot = spot_at(self.spots, track, session.frame)
         info = session.annotation.tracks[track]
         reason = f"{tr('Reviewer')}: {info.reason} {info.note}".strip() if info.review == "needs_fix" else ""
         self.why.setText("; ".join(filter(None, (reason, *(spot.reasons[:2] if spot else ())))) or tr("nothing"))

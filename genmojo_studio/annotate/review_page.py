@@ -58,7 +58,8 @@ class ReviewPage(QWidget):
         """The active track is right."""
         track = self._session.track
         if track is not None:
-            step = verbs.attempt(self._session, lambda: edit_tracks.approve(self._session.annotation, track, self._who()))
+            annotation = self._session.annotation
+            step = verbs.attempt(self._session, lambda: edit_tracks.approve(annotation, track, self._who()))
             if step is not None:
                 self._next_open()
 
@@ -103,7 +104,8 @@ class ReviewPage(QWidget):
     def _next_open(self) -> None:
         """Go on to the next track without a decision."""
         session = self._session
-        waiting = [i for i in session.annotation.tracks.values() if i.review not in ("approved", "rejected", "needs_fix")]
+        done = ("approved", "rejected", "needs_fix")
+        waiting = [i for i in session.annotation.tracks.values() if i.review not in done]
         if waiting:
             session.select(waiting[0].object, waiting[0].number)
 

@@ -49,6 +49,7 @@ class Session(QObject):
     said = Signal(str)  # a sentence for the person
     stored = Signal(float)  # an edit is on the disk, seconds after it was made
     settings_changed = Signal()
+    judged = Signal(int, int, bool)  # track, frame: a person corrected it (True) or accepted it
 
     def __init__(self, state: AppState, cache: FrameCache, project: Project, parent: QObject | None = None) -> None:
         super().__init__(parent)

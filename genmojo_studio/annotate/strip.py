@@ -77,7 +77,8 @@ class Strip(QWidget):
                 painter.drawLine(middle + QPointF(4 * dx, 4 * dy), middle + QPointF(11 * dx, 11 * dy))
         now = frame == self._session.frame
         painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.setPen(QPen(self.palette().highlight().color() if now else self.palette().mid().color(), 2 if now else 1))
+        rim = self.palette().highlight() if now else self.palette().mid()
+        painter.setPen(QPen(rim.color(), 2 if now else 1))
         painter.drawRect(place)
         label = f"{frame} ◆" if key else str(frame)
         box = QRectF(place.x() + 1, place.bottom() - 15, painter.fontMetrics().horizontalAdvance(label) + 6, 14)

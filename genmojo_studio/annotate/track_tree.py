@@ -22,8 +22,8 @@ def state_name(state: int) -> str:
 
 def review_name(review: str) -> str:
     """Where a track's review stands, as a person says it."""
-    names = {"draft": tr("draft"), "in_progress": tr("in progress"), "needs_fix": tr("needs a fix"), "fixed": tr("fixed"),
-             "approved": tr("approved"), "rejected": tr("rejected")}  # fmt: skip
+    names = {"draft": tr("draft"), "in_progress": tr("in progress"), "needs_fix": tr("needs a fix"),
+             "fixed": tr("fixed"), "approved": tr("approved"), "rejected": tr("rejected")}  # fmt: skip
     return names.get(review, review)
 
 
@@ -49,8 +49,8 @@ class TrackTree(QTreeWidget):
 
     chosen = Signal(int, int)  # object id, number
 
-    def __init__(self, session: Session, columns: tuple[str, ...] = ("state", "doubt"), parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, session: Session, columns: tuple[str, ...] = ("state", "doubt")) -> None:
+        super().__init__()
         self._session, self._columns = session, columns
         titles = {"state": tr("state"), "doubt": tr("doubt"), "review": tr("review"), "frame": tr("placed")}
         self.setColumnCount(1 + len(columns))

@@ -1,88 +1,225 @@
-"""Trackers at work for a session: seeds, segments solved again after a key, suspicion. Threads only, no windows."""
+"""The solver at work beside the window: seeds, segments solved again after a key, suspicion.
+
+One thread asks the solver, which keeps what it matched. Requests are copies of what stands; an answer that comes after
+its key was changed again, or after its step was undone, changes nothing.
+"""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
-from genmojo_core.tracks import keys
-from genmojo_core.tracks.annotation import FLOW, Proposal
-from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE
-from genmojo_core.trackers import optical
+from genmojo_core.trackers.evidence import scene_of
+from genmojo_core.trackers.solver import SolveAnswer, SolveRequest, TrackSolver
+from genmojo_core.tracks import keys, suspicion
+from genmojo_core.tracks.annotation import KEY, Annotation
+from genmojo_core.tracks.suspicion import Calibration, Evidence, Spot, Suspicion
+from genmojo_studio import notify
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.background import Tasks
 from genmojo_studio.translate import tr
 
+SHOWN = 0.15  # score from which a spot stands in the queue
+_PATIENCE = 350  # ms without an edit after which suspicion is ranked anew
+
+
+@dataclass(frozen=True)
+class _Key:
+    """A key to answer: track, frame, the step it was placed in, and the frames to be solved."""
+
+    track: int
+    frame: int
+    step: int | None
+
 
 class Tracking(QObject):
-    """Runs trackers beside the window."""
+    """Solves and judges the tracks of a session."""
 
-    spots_ready = Signal(object)
+    spots_ready = Signal(object)  # list of Spot, worst first
     busy_changed = Signal(str)
-    seeded = Signal(int)  # tracks
+    solved = Signal(int)  # tracks changed
 
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session = session
         self.tasks = Tasks(self, threads=1)
-        self._look = QTimer(self, singleShot=True, interval=400)
+        self.calibration = Calibration()
+        self.suspicions: dict[int, Suspicion] = {}
+        self.evidence: dict[int, Evidence] = {}
+        self._solver: TrackSolver | None = None
+        self._solved_clip: Clip | None = None
+        self._stale: set[int] = set()  # objects whose evidence is to be gathered again
+        self._gathering = False
+        self._closed = False
+        self._look = QTimer(self, singleShot=True, interval=_PATIENCE)
+        self._look.timeout.connect(self._judge)
+        session.edited.connect(self._edited)
+        session.judged.connect(self._learn)
 
     def close(self) -> None:
         """Drop what is going on."""
+        self._closed = True
         self._look.stop()
         self.tasks.close()
 
     def look_again(self) -> None:
-        """Rank suspicious spots anew, soon."""
+        """Rank suspicious spots anew, soon; pictures are looked at again where tracks have changed."""
+        self._stale |= {i.object for i in self._session.annotation.tracks.values()}
         self._look.start()
 
-    def seed(self, tracks: list[int]) -> None:
-        """Let the optical tracker propose positions for tracks, and take them wherever nobody said otherwise."""
-        session, clip = self._session, self._session.clip
-        if clip is None:
-            session.said.emit(tr("The clip is still being read."))
-            return
-        frames = {t: int(session.annotation.keys(t)[0]) for t in tracks if len(session.annotation.keys(t))}
-        places = {t: session.annotation.track(t).xy[f].copy() for t, f in frames.items()}
-        owners = {t: session.annotation.tracks[t].object for t in frames}
-        self.busy_changed.emit(tr("Seeding {n} tracks …").format(n=len(frames)))
-        self.tasks.run(lambda: _seeds(clip, frames, places, owners), self._seeded, self._failed)
+    # ---- solving
 
-    def after_key(self, track: int, frame: int, step: int) -> None:
+    def seed(self, objects: list[int]) -> None:
+        """Fill the tracks of objects from the pixels, wherever nobody said otherwise."""
+        for object_id in objects:
+            self._ask(SolveRequest.of(self._session.annotation, object_id), None)
+
+    def after_key(self, track: int, frame: int, step: int | None) -> None:
         """Solve the segments on both sides of a key that a person has just placed, as part of that step."""
-        self.look_again()
+        info = self._session.annotation.tracks.get(track)
+        if info is None or not _is_key(self._session.annotation, track, frame):
+            return
+        request = SolveRequest.of(self._session.annotation, info.object, (track, frame))
+        if (np.count_nonzero(request.cells[request.tracks.index(track)].state)) > 1 or step is None:
+            self._ask(request, _Key(track, frame, step))
 
     def run(self, direction: int) -> None:
         """Solve the active track from this frame to the next key (1), back to the one before (-1), or both (0)."""
+        session, track = self._session, self._session.track
+        if track is None:
+            return
+        frame, last = session.frame, session.annotation.frames - 1
+        if not _is_key(session.annotation, track, frame):
+            start, end = session.annotation.segment(track, frame)
+            anchor = start if start is not None else end
+            if anchor is None:
+                session.said.emit(tr("Place this point first."))
+                return
+            frame = anchor
+        span = {1: (session.frame, last), -1: (0, session.frame), 0: (0, last)}[direction]
+        info = session.annotation.tracks[track]
+        self._ask(SolveRequest.of(session.annotation, info.object, (track, frame)), _Key(track, frame, None), span)
 
     def one(self, direction: int) -> None:
         """Take the active point one frame on or back, and go there."""
+        session, track = self._session, self._session.track
+        there = session.frame + direction
+        if track is None or not 0 <= there < session.annotation.frames:
+            return
+        if session.annotation.at(there).ids.tolist().count(track) == 0:
+            xy = session.annotation.track(track).xy[session.frame]
+            found = keys.set_state(session.annotation, track, there, there, 1)
+            session.do(found)
+            session.said.emit(tr("Carried on from x {x:.1f}, y {y:.1f}.").format(x=xy[0], y=xy[1]))
+        session.go(there)
 
-    def _seeded(self, proposals: dict[int, Proposal]) -> None:
-        session = self._session
+    def _ask(self, request: SolveRequest, key: _Key | None, span: tuple[int, int] | None = None) -> None:
+        clip = self._session.clip
+        if clip is None or clip.masks is None:
+            self._session.said.emit(tr("The clip is still being read.") if clip is None else
+                                    tr("There are no masks to track in: make one in step 1."))  # fmt: skip
+            return
+        if not request.tracks:
+            return
+        self.busy_changed.emit(tr("Solving {n} tracks …").format(n=len(request.tracks) if key is None else 1))
+
+        def work() -> SolveAnswer:
+            return self._solver_for(clip).answer(request)
+
+        self.tasks.run(work, lambda answer: self._answered(answer, key, span), self._failed)
+
+    def _solver_for(self, clip: Clip) -> TrackSolver:
+        """The solver of a clip; made on the thread that uses it."""
+        if self._solver is None or self._solved_clip is not clip:
+            self._solver, self._solved_clip = TrackSolver(clip), clip
+        return self._solver
+
+    def _answered(self, answer: SolveAnswer, key: _Key | None, span: tuple[int, int] | None) -> None:
+        if self._closed:
+            return
         self.busy_changed.emit("")
-        for track, proposal in proposals.items():
-            session.project.propose(track, proposal)
-        session.do(keys.accept(session.annotation, proposals, FLOW))
-        self.seeded.emit(len(proposals))
+        if span is not None:
+            answer = _within(answer, span)
+        edit = answer.edit(self._session.annotation)
+        if edit.changes:
+            self._session.do(edit, key.step if key is not None else None)
+        self.solved.emit(len(answer.found))
+        self._stale.add(answer.request.object_id)
+        self._look.start()
+
+    # ---- judging
+
+    def _edited(self, touched: object) -> None:
+        tracks = self._session.annotation.tracks
+        self._stale |= {tracks[t].object for t in getattr(touched, "tracks", ()) if t in tracks}
+        self._look.start()
+
+    def _judge(self) -> None:
+        """Gather evidence of changed objects on the thread, then rank; one round at a time."""
+        session, clip = self._session, self._session.clip
+        if self._closed or self._gathering or clip is None or clip.masks is None:
+            return
+        wanted = [o for o in self._stale if o in clip.object_ids.tolist()]
+        self._stale.clear()
+        requests = [SolveRequest.of(session.annotation, o) for o in wanted]
+        self._gathering = True
+
+        def work() -> dict[int, Evidence]:
+            solver, found = self._solver_for(clip), {}
+            for request in requests:
+                found |= solver.evidence(request)
+            return found
+
+        self.tasks.run(work, self._gathered, self._failed)
+
+    def _gathered(self, evidence: dict[int, Evidence]) -> None:
+        self._gathering = False
+        session = self._session
+        if self._closed or session.clip is None:
+            return
+        self.evidence |= evidence
+        known = {t: e for t, e in self.evidence.items() if t in session.annotation.tracks}
+        self.suspicions = suspicion.assess(session.annotation, scene_of(session.clip), known, self.calibration)
+        session.suspicion = {t: s.score for t, s in self.suspicions.items()}
+        spots = suspicion.queue(session.annotation, self.suspicions)
+        self.spots_ready.emit([s for s in spots if s.score >= SHOWN])
+        session.shown.emit()
+        if self._stale:
+            self._look.start()
+
+    def _learn(self, track: int, frame: int, corrected: bool) -> None:
+        """A person judged a place: signals that were right count for more from now on."""
+        if track in self.suspicions:
+            self.calibration.learn(self.suspicions[track], frame, corrected)
 
     def _failed(self, error: BaseException) -> None:
+        self._gathering = False
+        if self._closed:
+            return
         self.busy_changed.emit("")
         if isinstance(error, GenmojoError):
             self._session.said.emit(str(error))
         else:
-            raise error
+            notify.tell(error)
 
 
-def _seeds(clip: Clip, frames: dict, places: dict, owners: dict) -> dict[int, Proposal]:
-    ids = clip.object_ids.tolist()
-    known = [t for t in frames if owners[t] in ids]
-    scale = np.array(clip.size) / np.array(clip.source_size)
-    xy, conf = optical.track_points(clip, np.array([frames[t] for t in known]),
-                                    np.array([places[t] for t in known]) * scale,
-                                    np.array([ids.index(owners[t]) for t in known]))  # fmt: skip
-    state = np.where(conf > 0.5, VISIBLE, np.where(conf > 0, OCCLUDED, OUT_OF_VIEW)).astype(np.uint8)
-    return {t: Proposal("optical", (xy[n] / scale).astype(np.float32), state[n], conf[n].astype(np.float32))
-            for n, t in enumerate(known)}  # fmt: skip
+def _is_key(annotation: Annotation, track: int, frame: int) -> bool:
+    return bool(annotation.cells(track, np.array([frame])).flags[0] & KEY)
+
+
+def _within(answer: SolveAnswer, span: tuple[int, int]) -> SolveAnswer:
+    """Only the frames first..last of an answer."""
+    found = {}
+    for track, (frames, cells) in answer.found.items():
+        inside = (frames >= span[0]) & (frames <= span[1])
+        found[track] = (frames[inside], type(cells)(*(a[inside] for a in cells.arrays())))
+    return SolveAnswer(answer.request, found)
+
+
+def spot_at(spots: list[Spot], track: int, frame: int) -> Spot | None:
+    """The spot that covers a frame of a track."""
+    return next((s for s in spots if s.track == track and s.first <= frame <= s.last), None)

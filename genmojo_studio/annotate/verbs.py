@@ -37,6 +37,7 @@ def set_key(session: Session, track: int, xy: tuple[float, float], *, snapped: b
         session.said.emit(str(error))
         return None
     step = session.do(edit)
+    session.judged.emit(track, session.frame, True)
     return in_work(session, track, step)
 
 
@@ -147,6 +148,8 @@ def accept(session: Session, direction: int = 1) -> bool:
     clear = [t for t in view.ids.tolist() if t not in doubtful or t == session.track]
     if clear:
         session.do(keys.confirm(annotation, clear, frame))
+        for track in clear:
+            session.judged.emit(track, frame, False)
     left = [t for t in doubtful if t != session.track] if asked else doubtful
     if left:
         session.select_track(left[0])

@@ -15,8 +15,8 @@ from genmojo_core.tracks.annotation import ObjectInfo
 from genmojo_core.tracks.edit_tracks import put_objects
 from genmojo_studio import notify
 from genmojo_studio.annotate import hand_masks, tracking
-from genmojo_studio.annotate.canvas import Tool
 from genmojo_studio.annotate.candidates import Figures, figures
+from genmojo_studio.annotate.canvas import Tool
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.background import Tasks
 from genmojo_studio.translate import tr
@@ -76,7 +76,8 @@ class Work(QObject):
         """Make an object of what was drawn, in a thread."""
         clip, prompts = self._session.clip, list(self.prompts)
         if clip is None or not prompts:
-            self._session.said.emit(tr("The clip is still being read.") if clip is None else tr("Draw something first."))
+            reading = tr("The clip is still being read.")
+            self._session.said.emit(reading if clip is None else tr("Draw something first."))
             return
         self.prompts = []
         self.busy_changed.emit(tr("Cutting the object out of every frame …"))
@@ -108,6 +109,8 @@ class Work(QObject):
     # ---- clip and candidates
 
     def _read_clip(self) -> None:
+        if self._closed:
+            return
         state, path = self._session.state, Path(self._session.project.info.path)
         if state.clip is not None and state.clip_path == path and len(state.clip) == self._session.annotation.frames:
             self._clip_read(state.clip)
@@ -126,8 +129,11 @@ class Work(QObject):
             info = session.annotation.objects.get(number)
             self._add_mask(number, info.name if info else "", mask)
         names = clip.object_names or ("",) * clip.objects
-        new = [ObjectInfo(int(i), name or tr("object {n}").format(n=int(i)))
-               for i, name in zip(clip.object_ids, names, strict=True) if int(i) not in session.annotation.objects]  # fmt: skip
+        new = [
+            ObjectInfo(int(i), name or tr("object {n}").format(n=int(i)))
+            for i, name in zip(clip.object_ids, names, strict=True)
+            if int(i) not in session.annotation.objects
+        ]
         if new and not session.project.read_only:
             session.do(put_objects(session.annotation, new, tr("Candidates from the masks")))
         self.clip_ready.emit()
