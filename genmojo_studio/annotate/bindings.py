@@ -163,7 +163,8 @@ class Hands:
         """When an action is possible."""
         s = self._s
         needs_track = name.startswith(("track.", "review.fix", "review.approve", "point.key", "point.delete",
-                                       "point.nudge", "point.push", "point.uncertain", "move.key", "move.bisect"))  # fmt: skip
+                                       "point.nudge", "point.push", "point.uncertain", "move.key",
+                                       "move.bisect"))  # fmt: skip
         if name == "track.seed":
             return lambda: self._w.session is s and bool(s.annotation.tracks)
         if needs_track:

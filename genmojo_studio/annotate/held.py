@@ -14,7 +14,6 @@ from PySide6.QtWidgets import QApplication, QWidget
 
 from genmojo_studio.actions import ActionTable
 
-
 Verb = Callable[[], object]
 
 
