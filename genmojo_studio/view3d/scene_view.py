@@ -168,13 +168,17 @@ class SceneView(QWidget):
 
     def view(self) -> View:
         """The camera now, in logical pixels of this widget."""
-        return self._request(moving=False).view(self.width(), self.height())
+        return self.frame_request().view(self.width(), self.height())
 
     # ---- questions ----------------------------------------------------------------------------------------------
 
+    def frame_request(self) -> FrameRequest:
+        """What is on show at full detail, for others to draw the same. Raises GenmojoError("empty") without a scene."""
+        return self._request(moving=False)
+
     def pick(self, x: float, y: float) -> Pick:
         """What lies under logical pixel (x, y)."""
-        request = self._request(moving=False)
+        request = self.frame_request()
         moment = request.snapshot.at(round(request.t))
         ratio = self.devicePixelRatioF()
         view = request.view(round(self.width() * ratio), round(self.height() * ratio))
@@ -187,7 +191,7 @@ class SceneView(QWidget):
 
         Straight alpha where the look's backdrop is None. Raises GenmojoError without a scene or where it is too large.
         """
-        request = self._request(moving=False)
+        request = self.frame_request()
         if t is not None and self._snapshot is not None:
             held = t if self._held is None else self._held
             request = replace(request, t=t, reference=reference_of(self._snapshot, held))
