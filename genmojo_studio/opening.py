@@ -9,6 +9,7 @@ from genmojo_core.errors import GenmojoError
 
 Kind = Literal["clip", "scene", "project", "ply", "run"]
 
+SHARED_SHORT_SIDE = 540  # pixels at which the shared clip is held; annotation reads full frames on its own
 VIDEOS = (".mp4", ".mov", ".mkv", ".webm", ".avi", ".m4v")
 PICTURES = (".jpg", ".jpeg", ".png", ".bmp", ".webp", ".tif", ".tiff")
 

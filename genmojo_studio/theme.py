@@ -12,7 +12,6 @@ from pathlib import Path
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QApplication
 
-
 ICONS = Path(__file__).resolve().parent.parent / "resources" / "icons"
 
 
@@ -48,7 +47,7 @@ THEMES = {
         line="#444a54",
         text="#e6e8eb",
         dim="#a4abb6",
-        accent="#3b82d6",
+        accent="#3578c8",
         on_accent="#ffffff",
         good="#5bbf7b",
         warn="#e0a63c",
@@ -65,7 +64,7 @@ THEMES = {
         dim="#525a66",
         accent="#1f66b8",
         on_accent="#ffffff",
-        good="#1d7a3e",
+        good="#17693a",
         warn="#8a5a00",
         bad="#b3261e",
     ),
@@ -127,6 +126,7 @@ def _style_sheet(table: Colours) -> str:
     sheet = _RULES
     for field in fields(Colours):
         sheet = sheet.replace(f"@{field.name}@", getattr(table, field.name))
+    sheet = sheet.replace("@chunk@", _mix(table.accent, table.field, 0.45))
     sheet = sheet.replace("@icons@", ICONS.as_posix())
     return sheet.replace("@hover@", _mix(table.raised, table.text, 0.08)).replace(
         "@off@", _mix(table.dim, table.panel, 0.45)
@@ -178,7 +178,7 @@ QTabBar::tab:hover { color: @text@; } QTabWidget::pane { border: none; }
 QGroupBox { border: 1px solid @line@; border-radius: 5px; margin-top: 9px; padding-top: 8px; }
 QGroupBox::title { subcontrol-origin: margin; left: 9px; padding: 0 4px; color: @dim@; }
 QProgressBar { background: @field@; border: 1px solid @line@; border-radius: 4px; text-align: center; }
-QProgressBar::chunk { background: @accent@; border-radius: 3px; }
+QProgressBar::chunk { background: @chunk@; border-radius: 3px; }
 QScrollArea, QScrollArea > QWidget > QWidget { background: transparent; border: none; }
 QLabel[role="dim"] { color: @dim@; } QLabel[role="good"] { color: @good@; }
 QLabel[role="warn"] { color: @warn@; } QLabel[role="bad"] { color: @bad@; }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
@@ -83,15 +83,16 @@ class Welcome(QWidget):
             outer.setColumnStretch(side, 1)
         outer.setColumnStretch(1, 12)
 
-    def show_recent(self, paths: list[Path]) -> None:
-        """Lists what was open lately, newest first."""
+    def show_recent(self, paths: list[Path], live: Sequence[Path] = ()) -> None:
+        """Lists runs that go on without a window, then what was open lately, newest first."""
         self.recent.clear()
-        for path in paths:
-            item = QListWidgetItem(f"{path.name}    {_kind_text(path)}    {path.parent}")
+        for path in [*live, *(path for path in paths if path not in live)]:
+            kind = tr("run, going on now") if path in live else _kind_text(path)
+            item = QListWidgetItem(f"{path.name}    {kind}    {path.parent}")
             item.setData(Qt.ItemDataRole.UserRole, str(path))
             item.setToolTip(str(path))
             self.recent.addItem(item)
-        if not paths:
+        if not self.recent.count():
             item = QListWidgetItem(tr("Nothing yet."))
             item.setFlags(Qt.ItemFlag.NoItemFlags)
             self.recent.addItem(item)

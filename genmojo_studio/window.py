@@ -23,8 +23,8 @@ from genmojo_studio.state import AppState
 from genmojo_studio.translate import tr
 from genmojo_studio.watchdog import Watchdog
 from genmojo_studio.welcome import Welcome
+from genmojo_studio.worker import runs
 
-SHARED_SHORT_SIDE = 540  # pixels at which the shared clip is held; annotation reads full frames on its own
 DEMO_CLIP = "crossing-shapes"
 
 
@@ -84,8 +84,12 @@ class MainWindow(QMainWindow):
             self.workspaces[name] = made
             self.stack.addWidget(cast(QWidget, made))
             made.restore_layout()
+            said = getattr(made, "said", None)
+            if said is not None:
+                said.connect(lambda text: self.header.say(text, busy=bool(text)))
         self.workspace = name
-        self.welcome.show_recent(self.settings.recent())
+        if not name:
+            self.welcome.show_recent(self.settings.recent(), [Path(run.run_dir) for run in runs.live_runs()])
         self.stack.setCurrentWidget(cast(QWidget, self.workspaces[name]) if name else self.welcome)
         self.header.show_workspace(name)
         self.menus.set_workspace(name)
@@ -242,7 +246,7 @@ def _make_workspace(name: str, state: AppState, table: ActionTable) -> Workspace
 def _read_clip(path: Path) -> Clip:
     from genmojo_core.clip import folders
 
-    return folders.read(path, short_side=SHARED_SHORT_SIDE)
+    return folders.read(path, short_side=opening.SHARED_SHORT_SIDE)
 
 
 def _write_demo() -> Path:

@@ -28,15 +28,15 @@ def bind(w: WatchWorkspace) -> None:
     _bind_time(w)
     _bind_run(w)
     bind_to, take = w.table.bind, w.take_away
-    for action_id, call, scene_only in (
-        ("save.hdf5", take.save_hdf5, False),
+    for action_id, call, file_only in (
+        ("save.hdf5", take.save_hdf5, True),
         ("save.ply", take.save_ply, True),
         ("save.ply_sequence", take.save_ply_sequence, True),
         ("save.screenshot", take.screenshot, False),
         ("save.turntable", take.turntable, True),
-        ("save.path", take.camera_path, True),
+        ("save.path", take.camera_path, False),
     ):
-        bind_to(action_id, call, partial(_has_scene, w, scene_only))
+        bind_to(action_id, call, partial(_has_scene, w, file_only))
 
 
 def open_run(w: WatchWorkspace, folder: Path) -> None:
@@ -175,4 +175,4 @@ def _in(w: WatchWorkspace, *states: str) -> Callable[[], bool]:
 
 
 def _has_scene(w: WatchWorkspace, file_only: bool) -> bool:
-    return w.session.scene is not None if file_only else w.session.snapshot is not None
+    return w.take_away.scene_file is not None if file_only else w.session.snapshot is not None

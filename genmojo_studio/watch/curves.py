@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QVBoxLa
 from genmojo_studio.state import AppState
 from genmojo_studio.theme import SERIES, colours
 from genmojo_studio.translate import tr
-from genmojo_studio.watch import gain
+from genmojo_studio.watch import gain, plots
 from genmojo_studio.watch.run_log import RunLog
 
 REFRESH_MS = 60  # at most about 16 times a second
@@ -85,13 +85,7 @@ class Curves(QWidget):
         super().showEvent(event)
 
     def _dress(self) -> None:
-        table = colours(self._state.theme)
-        self.plot.setBackground(table.field)
-        for side in ("bottom", "left"):
-            self.plot.getAxis(side).setPen(table.line)
-            self.plot.getAxis(side).setTextPen(table.text)
-        self.plot.showGrid(x=True, y=True, alpha=0.15)
-        self.plot.getPlotItem().legend.setLabelTextColor(table.text)
+        plots.dress(self.plot, self._state.theme)
         self._restart()
 
     def _restart(self) -> None:

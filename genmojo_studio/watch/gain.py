@@ -1,7 +1,8 @@
 """What the next minute of a run is expected to buy, extrapolated from its measured accuracy-against-time curve.
 
-The tail of such curves is close to a line over the logarithm of time. The line is fitted to the last half of the
-measured points; its slope's standard error gives the spread. Knows no Qt.
+The tail of such curves is close to a line over the logarithm of the time since measuring began. The line is fitted to
+the last half of the points; its slope's standard error gives the spread. Nothing is said before a quarter of the time
+that is looked ahead has been seen. Knows no Qt.
 """
 
 from __future__ import annotations
@@ -13,13 +14,14 @@ from dataclasses import dataclass
 import numpy as np
 
 FEWEST = 6  # points below which nothing is said
+SEEN_SHARE = 0.25  # of the time looked ahead that must have been seen
 
 
 @dataclass(frozen=True)
 class Gain:
     """Expected dB in the `seconds` after the curve's end, with one standard error, and the fitted line.
 
-    The line is psnr = level + slope * ln(t), t in seconds of the run.
+    The line is psnr = level + slope * ln(t - origin), t in seconds of the run.
     """
 
     decibel: float
@@ -27,23 +29,25 @@ class Gain:
     seconds: float
     level: float
     slope: float
+    origin: float
 
     def at(self, seconds: np.ndarray) -> np.ndarray:
-        """The line in dB at some seconds (> 0)."""
-        return self.level + self.slope * np.log(seconds)
+        """The line in dB at some seconds of the run, later than the origin."""
+        return self.level + self.slope * np.log(seconds - self.origin)
 
 
 def expected(curve: Sequence[tuple[float, float]], seconds: float = 60.0) -> Gain | None:
-    """The gain over the next `seconds`; None while fewer than six points later than second 0 are there.
+    """The gain over the next `seconds`; None while there are fewer than six points or too short a time.
 
     Args:
         curve: rows (seconds since the start, PSNR in dB), in order.
     """
-    points = np.array([row for row in curve if row[0] > 0 and math.isfinite(row[1])], np.float64).reshape(-1, 2)
-    if len(points) < FEWEST:
+    points = np.array([row for row in curve if math.isfinite(row[1])], np.float64).reshape(-1, 2)
+    if len(points) < FEWEST or points[-1, 0] - points[0, 0] < SEEN_SHARE * seconds:
         return None
+    origin = float(points[0, 0] - np.median(np.diff(points[:, 0])))
     tail = points[min(len(points) // 2, len(points) - FEWEST) :]
-    x, y = np.log(tail[:, 0]), tail[:, 1]
+    x, y = np.log(tail[:, 0] - origin), tail[:, 1]
     spread_x = float(((x - x.mean()) ** 2).sum())
     if spread_x < 1e-12:
         return None
@@ -51,8 +55,8 @@ def expected(curve: Sequence[tuple[float, float]], seconds: float = 60.0) -> Gai
     level = float(y.mean() - slope * x.mean())
     rest = y - level - slope * x
     error = math.sqrt(float((rest**2).sum()) / max(len(tail) - 2, 1) / spread_x)
-    factor = math.log1p(seconds / points[-1, 0])
-    return Gain(slope * factor, error * factor, seconds, level, slope)
+    factor = math.log1p(seconds / (points[-1, 0] - origin))
+    return Gain(slope * factor, error * factor, seconds, level, slope, origin)
 
 
 class StopRule:

@@ -11,11 +11,11 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QTreeWidget, QTreeWidgetIt
 from genmojo_studio import notify
 from genmojo_studio.background import Tasks
 from genmojo_studio.state import AppState
-from genmojo_studio.theme import SERIES, colours
+from genmojo_studio.theme import SERIES
 from genmojo_studio.translate import tr
 from genmojo_studio.view3d.picking import Contributor, Pick
 from genmojo_studio.view3d.snapshot import SceneSnapshot
-from genmojo_studio.watch import trajectory
+from genmojo_studio.watch import plots, trajectory
 from genmojo_studio.watch.controls import dim
 from genmojo_studio.watch.trajectory import Trajectory
 
@@ -130,13 +130,7 @@ class PickingPanel(QWidget):
         self._here.setValue(self._state.frame + 1)
 
     def _dress(self) -> None:
-        table = colours(self._state.theme)
-        self.plot.setBackground(table.field)
-        self.plot.showGrid(x=True, y=True, alpha=0.15)
-        for side in ("bottom", "left"):
-            self.plot.getAxis(side).setTextPen(table.text)
-            self.plot.getAxis(side).setPen(table.line)
-        self.plot.getPlotItem().legend.setLabelTextColor(table.text)
+        plots.dress(self.plot, self._state.theme)
 
 
 def _item(one: Contributor) -> QTreeWidgetItem:

@@ -116,7 +116,7 @@ class RunStatus(QWidget):
         self.progress.setValue(round(log.progress * 1000))
         parts = []
         if log.step:
-            parts.append(tr("step {step}, {count} Gaussians").format(step=log.step[-1], count=log.gaussians[-1]))
+            parts.append(tr("step {step}, {count} Gaussians").format(step=len(log.step), count=log.gaussians[-1]))
             if self._control.live and math.isfinite(log.eta_seconds):
                 parts.append(tr("{time} left").format(time=spoken(log.eta_seconds)))
         if log.accuracy:
@@ -127,6 +127,7 @@ class RunStatus(QWidget):
             parts.append(tr("the view costs {share:.1f} %").format(share=self._control.view_cost * 100))
         self.figures.setText("  ·  ".join(parts))
         warnings = [mark.text for mark in log.marks if mark.kind == "warning"]
+        set_role(self.warnings, "warn")
         self.warnings.setText("\n".join(dict.fromkeys(warnings[-4:])))
         self._show_stages()
 

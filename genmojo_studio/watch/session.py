@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.store.scene_file import BakedScene
 from genmojo_studio import notify
 from genmojo_studio.background import Tasks
+from genmojo_studio.opening import SHARED_SHORT_SIDE
 from genmojo_studio.state import AppState
 from genmojo_studio.translate import tr
 from genmojo_studio.view3d.snapshot import SceneSnapshot
@@ -43,15 +45,14 @@ class Session(QObject):
 
     def open_ply(self, path: Path) -> None:
         """Reads a splat, or a folder of them as frames; the camera is invented."""
-        self._read(path, lambda: (_read_ply(path), None, None), self._scene_read)
+        self._read(path, lambda: _read_ply(path), self._scene_read)
 
     def take_preview(self, snapshot: SceneSnapshot) -> None:
         """A worker's newest preview."""
         first = self.scene is not None or self.snapshot is None
-        self.scene = None
+        self.scene, self.path = None, None
         self._show(snapshot)
         if first:
-            self.path = None
             self.scene_changed.emit()
 
     def clear(self) -> None:
@@ -66,15 +67,15 @@ class Session(QObject):
         self.path = path
         self._tasks.run(work, done, self._failed)
 
-    def _scene_read(self, result: tuple[BakedScene, Clip | None, Path | None]) -> None:
-        scene, clip, clip_path = result
+    def _scene_read(self, result: Read) -> None:
+        scene, clip, clip_path = result.scene, result.clip, result.clip_path
         self.busy.emit("")
         self.scene = scene
         if clip is not None and clip_path is not None:
             self._state.open_clip(clip, clip_path)
         self._state.set(scene_path=self.path, frame_count=max(len(scene), 1))
         self._version += 1
-        self._show(SceneSnapshot.from_baked(scene, self._state.frame, self._version))
+        self._show(replace(result.snapshot.at(self._state.frame), version=self._version))
         self.scene_changed.emit()
 
     def _show(self, snapshot: SceneSnapshot) -> None:
@@ -89,16 +90,25 @@ class Session(QObject):
         notify.tell(error)
 
 
-def _read_scene(path: Path, open_clip: Path | None) -> tuple[BakedScene, Clip | None, Path | None]:
-    """The scene, and its clip unless that is open already or gone."""
+@dataclass(frozen=True)
+class Read:
+    """A file's scene, ready to draw, and its clip unless that is open already or gone."""
+
+    scene: BakedScene
+    snapshot: SceneSnapshot
+    clip: Clip | None = None
+    clip_path: Path | None = None
+
+
+def _read_scene(path: Path, open_clip: Path | None) -> Read:
     from genmojo_core.clip import folders
     from genmojo_core.store import scene_hdf5
 
     scene = scene_hdf5.read(path)
     source = _clip_of(scene, path)
     if source is None or source == open_clip:
-        return scene, None, None
-    return scene, folders.read(source, short_side=540), source
+        return Read(scene, SceneSnapshot.from_baked(scene))
+    return Read(scene, SceneSnapshot.from_baked(scene), folders.read(source, short_side=SHARED_SHORT_SIDE), source)
 
 
 def _clip_of(scene: BakedScene, path: Path) -> Path | None:
@@ -108,7 +118,8 @@ def _clip_of(scene: BakedScene, path: Path) -> Path | None:
     return next((place.absolute() for place in places if place.exists()), None)
 
 
-def _read_ply(path: Path) -> BakedScene:
+def _read_ply(path: Path) -> Read:
     from genmojo_core.store import ply_scene
 
-    return ply_scene.read_scene(path)
+    scene = ply_scene.read_scene(path)
+    return Read(scene, SceneSnapshot.from_baked(scene))

@@ -21,9 +21,9 @@ from genmojo_core.store.scene_file import BakedScene
 from genmojo_core.tracks.model import PointTracks
 from genmojo_studio import notify
 from genmojo_studio.state import AppState
-from genmojo_studio.theme import SERIES, colours
+from genmojo_studio.theme import SERIES
 from genmojo_studio.translate import tr
-from genmojo_studio.watch import track_sets
+from genmojo_studio.watch import plots, track_sets
 from genmojo_studio.watch.controls import row
 from genmojo_studio.watch.track_sets import Apart, TrackSet, TrackSets
 
@@ -185,8 +185,4 @@ class TracksPanel(QWidget):
         self._here.setValue(self._state.frame + 1)
 
     def _dress(self) -> None:
-        table = colours(self._state.theme)
-        self.plot.setBackground(table.field)
-        for side in ("bottom", "left"):
-            self.plot.getAxis(side).setTextPen(table.text)
-            self.plot.getAxis(side).setPen(table.line)
+        plots.dress(self.plot, self._state.theme)

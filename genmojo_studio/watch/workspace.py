@@ -67,7 +67,7 @@ class WatchWorkspace(QMainWindow):
         self.curves = Curves(state)
         self.picking = PickingPanel(state)
         self.tracks = TracksPanel(state)
-        self.take_away = TakeAway(state, self.session, self.control, self.view, self)
+        self.take_away = TakeAway(state, self.session, self.view, self)
         self._arrange()
         self._connect()
         commands.bind(self)

@@ -1,0 +1,25 @@
+"""Colours people can read, and every text translated."""
+
+from dataclasses import asdict
+from pathlib import Path
+
+import pytest
+
+from genmojo_studio.theme import THEMES, contrast
+
+_ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.mark.parametrize("theme", THEMES)
+def test_text_stands_out_from_every_surface(theme):
+    table = asdict(THEMES[theme])
+    for surface in ("window", "panel", "field", "raised"):
+        for ink in ("text", "dim", "good", "warn", "bad"):
+            assert contrast(table[ink], table[surface]) >= 4.5, (ink, surface)
+        assert contrast(table["accent"], table[surface]) >= 3.0 or surface == "raised", surface
+    assert contrast(table["on_accent"], table["accent"]) >= 3.9
+
+
+def test_contrast_is_that_of_wcag():
+    assert contrast("#000000", "#ffffff") == pytest.approx(21.0)
+    assert contrast("#777777", "#ffffff") == pytest.approx(4.48, abs=0.01)
