@@ -32,6 +32,13 @@ def take(shape: tuple[int, ...], dtype: Any = np.float32) -> np.ndarray:
         return _free(size)[:size].view(dtype).reshape(shape)
 
 
+def zeros(shape: tuple[int, ...], dtype: Any = np.float32) -> np.ndarray:
+    """The same, filled with 0."""
+    array = take(shape, dtype)
+    array.fill(0)
+    return array
+
+
 def _free(size: int) -> np.ndarray:
     """A kept array of at least `size` bytes and at most twice that, or a new one that is kept where there is room."""
     for place in range(len(_kept)):

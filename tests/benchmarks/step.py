@@ -4,7 +4,8 @@
 
 The step: 8 frames of 256 x 256, 3 objects of 3,000 Gaussians and a background of 5,000; per object a K-plane field
 (64 and 128 nodes, 25 times, 32 channels each) read at 8 times with a trunk of width 64 and ten outputs; L1 + SSIM on
-the colours, L1 on depth, flow and labels; AdamW. CPU seconds, medians of rounds.
+the colours, L1 on depth, flow and labels; AdamW. The full step reads the field at two times per frame and adds the
+rigidity and rotation terms between them, as optimise/objective.py does. CPU seconds, medians of rounds.
 """
 
 from __future__ import annotations
@@ -20,12 +21,16 @@ import torch
 from torch import Tensor, nn
 
 from genmojo_core.kernels import threads
+from genmojo_core.optimise.objective import SAMPLED_ROWS
+from genmojo_core.optimise.regularise import nearest, rigidity
 from genmojo_core.render import autograd, ssim, torch_tiles
 from genmojo_core.render.rasterizer import Splats
 from genmojo_core.scene import plane_sampling
+from genmojo_core.scene.scene4d import ObjectState
 from tests.benchmarks.workload import FLOW, scene, view_of
 
 FRAMES, SIDE, OBJECTS, PER_OBJECT, BACKGROUND = 8, 256, 3, 3000, 5000
+NEIGHBOURS = 15  # config.py
 NAMES = ("means", "quats", "scales", "opacities", "features")
 
 
@@ -44,10 +49,13 @@ def main() -> None:
         if not arguments.no_torch:
             figures[part]["torch"] = median_seconds(plain, 1)
         print(part.ljust(12), *(f"{k} {1e3 * v:9.1f} ms" for k, v in figures[part].items()), flush=True)
-    total = {k: sum(row[k] for row in figures.values()) for k in figures["raster"]}
-    print("sum".ljust(12), *(f"{k} {1e3 * v:9.1f} ms" for k, v in total.items()))
+    sums = {}
+    for name, absent in (("step", ("field x 2", "rigidity")), ("full step", ("field",))):
+        rows = [row for part, row in figures.items() if part not in absent]
+        sums[name] = {k: sum(row[k] for row in rows) for k in rows[0]}
+        print(name.ljust(12), *(f"{k} {1e3 * v:9.1f} ms" for k, v in sums[name].items()))
     if arguments.json:
-        arguments.json.write_text(json.dumps({"parts": figures, "sum": total}, indent=1))
+        arguments.json.write_text(json.dumps({"parts": figures, "sums": sums}, indent=1))
 
 
 def median_seconds(work: Callable[[], None], rounds: int) -> float:
@@ -66,7 +74,9 @@ def parts() -> dict[str, tuple[Callable[[], None], Callable[[], None]]]:
     """(ours, plain torch) of every part of a step."""
     return {
         "raster": (lambda: raster(autograd.splat), lambda: raster(torch_tiles.splat)),
-        "field": field_pair(),
+        "field": field_pair(FRAMES),
+        "field x 2": field_pair(2 * FRAMES),
+        "rigidity": rigidity_pair(),
         "ssim": (lambda: colours(ssim.ssim_map), lambda: colours(ssim.ssim_map_torch)),
         "other losses": (other_losses, other_losses),
         "adamw": (lambda: adamw(fused=True), lambda: adamw(fused=False)),
@@ -86,13 +96,13 @@ def raster(draw: Callable) -> None:
         torch.autograd.backward(planes, [_UPSTREAM[..., 2:], _UPSTREAM[..., 0], _UPSTREAM[..., 1]])
 
 
-def field_pair() -> tuple[Callable[[], None], Callable[[], None]]:
-    """The fields of all objects at eight times: fused plane reads, and plain torch's own grid_sample frame by frame."""
+def field_pair(moments: int) -> tuple[Callable[[], None], Callable[[], None]]:
+    """The fields of all objects at some times: fused plane reads, and plain torch's own grid_sample frame by frame."""
     space = [nn.Parameter(torch.rand(3, 64 * m, 64 * m, 32)) for m in (1, 2)]
     time_planes = [nn.Parameter(torch.ones(3, 64 * m, 25, 32)) for m in (1, 2)]
     trunk = nn.Sequential(nn.Linear(64, 64), nn.ReLU(), nn.Linear(64, 10))
     coords = torch.rand(OBJECTS * PER_OBJECT, 3) * 2 - 1
-    times = torch.linspace(-1, 1, FRAMES)
+    times = torch.linspace(-1, 1, moments)
 
     def ours() -> None:
         levels = [
@@ -129,6 +139,24 @@ def _time_grid(planes: Tensor, coords: Tensor, moment: Tensor) -> Tensor:
     """Product over the three space-time planes."""
     a, b, c = (_read(planes[i], moment.expand(len(coords)), coords[:, i]) for i in range(3))
     return a * b * c
+
+
+def rigidity_pair() -> tuple[Callable[[], None], Callable[[], None]]:
+    """Rigidity and rotation of every object between the two times of every frame, on the rows a step samples."""
+    generator = torch.Generator().manual_seed(1)
+    points = torch.rand(PER_OBJECT, 3, generator=generator)
+    near = nearest(points, NEIGHBOURS)
+    means = nn.Parameter(points + 0.01 * torch.randn(2 * FRAMES, PER_OBJECT, 3, generator=generator))
+    quats = nn.Parameter(torch.nn.functional.normalize(torch.rand(2 * FRAMES, PER_OBJECT, 4), dim=-1))
+
+    def work() -> None:
+        states = [ObjectState(m, q, m, q, m, m, None) for m, q in zip(means, quats, strict=True)]
+        for _ in range(OBJECTS):
+            rows = torch.randperm(PER_OBJECT, generator=generator)[:SAMPLED_ROWS]
+            terms = [rigidity(a, b, near, rows) for a, b in zip(states[::2], states[1::2], strict=True)]
+            torch.stack([value for pair in terms for value in pair]).sum().backward(retain_graph=True)
+
+    return work, work
 
 
 def colours(similarity: Callable) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.errors import GenmojoError
-from genmojo_core.kernels.buffers import take
+from genmojo_core.kernels.buffers import take, zeros
 from genmojo_core.kernels.threads import run_jobs, run_ranges, scratch
 from genmojo_core.render.cpu.backward import Slopes, slope_floats, slope_tiles
 from genmojo_core.render.cpu.bins import TILE, Bins, bin_splats, depth_order, gather
@@ -183,8 +183,7 @@ def _draw_pass(drawn: Drawn, layout: Layout, ellipses: Ellipses, features: np.nd
     source = (features, layout.feature_of_slot())
     run_ranges(lambda a, b: gather(a, b, bins.order, ellipses, source, records), count, SPLATS_PER_JOB)
     planes = take((1 + slots, bins.tiles_y * TILE, bins.tiles_x * TILE))
-    hits = take((len(bins.rank),), np.uint32)
-    hits.fill(0)
+    hits = zeros((len(bins.rank),), np.uint32)
     drawing = Drawing(
         records.ravel(), slots, layout.attached_slots, planes.ravel(), hits, lens.width, lens.height
     )  # fmt: skip

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from genmojo_core.kernels.buffers import take
 from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.kernels.scalars import smaller
 from genmojo_core.kernels.simd import fma, load8, splat8, store8
@@ -31,8 +32,8 @@ WINDOW = (_shape / _shape.sum()).astype(np.float32)  # (11,)
 def ssim_forward(prediction: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Map (B, H, W, C) of two contiguous float32 pictures in 0..1, and its derivatives (B, C, 3, H, W rounded up)."""
     count, height, width, channels = prediction.shape
-    out = np.empty_like(prediction)
-    slopes = np.empty((count * channels, 3, height, -(-width // LANES) * LANES), np.float32)
+    out = take(prediction.shape)
+    slopes = take((count * channels, 3, height, -(-width // LANES) * LANES))
 
     def job(index: int) -> None:
         b, c = divmod(index, channels)
@@ -48,7 +49,7 @@ def ssim_backward(
 ) -> np.ndarray:  # fmt: skip
     """Gradient (B, H, W, C) of sum(upstream * map) with respect to the prediction."""
     channels = prediction.shape[3]
-    out = np.empty_like(prediction)
+    out = take(prediction.shape)
 
     def job(index: int) -> None:
         b, c = divmod(index, channels)

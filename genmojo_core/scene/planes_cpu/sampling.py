@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from genmojo_core.kernels.buffers import take, zeros
 from genmojo_core.kernels.threads import run_jobs, run_ranges
 from genmojo_core.scene.planes_cpu.planes import (
     LANES,
@@ -21,7 +22,7 @@ POINTS_PER_JOB = 2048
 def space_features(planes: np.ndarray, coords: np.ndarray) -> np.ndarray:
     """(3, R, R, C) float32 planes at (N, 3) float32 coordinates: (N, C) products; C a multiple of 8."""
     shape = (planes.shape[1], planes.shape[3])
-    out = np.empty((len(coords), shape[1]), np.float32)
+    out = take((len(coords), shape[1]))
     flat, target = planes.reshape(-1), out.reshape(-1)
     run_ranges(lambda a, b: sample_space(a, b, flat, coords, shape, target), len(coords), POINTS_PER_JOB)
     return out
@@ -30,7 +31,7 @@ def space_features(planes: np.ndarray, coords: np.ndarray) -> np.ndarray:
 def space_gradient(planes: np.ndarray, coords: np.ndarray, upstream: np.ndarray) -> np.ndarray:
     """Gradient (3, R, R, C) of sum(upstream * space_features(planes, coords))."""
     shape = (planes.shape[1], planes.shape[3])
-    out = np.zeros(planes.shape, np.float32)
+    out = zeros(planes.shape)
     flat, above, target = planes.reshape(-1), upstream.reshape(-1), out.reshape(-1)
     run_jobs(lambda job: slope_space(job * LANES, flat, coords, shape, above, target), shape[1] // LANES)
     return out
@@ -40,8 +41,8 @@ def time_features(planes: np.ndarray, coords: np.ndarray, times: np.ndarray) -> 
     """(3, R, T, C) float32 planes at (N, 3) coordinates and (B,) times: (B, N, C) products, and lines (B, 3, R, C)."""
     _, nodes, _, channels = planes.shape
     shape = planes.shape[1:]
-    lines = np.empty((len(times), 3, nodes, channels), np.float32)
-    out = np.empty((len(times), len(coords), channels), np.float32)
+    lines = take((len(times), 3, nodes, channels))
+    out = take((len(times), len(coords), channels))
     flat = planes.reshape(-1)
 
     def job(b: int) -> None:
@@ -58,7 +59,7 @@ def time_gradient(
     """Gradient (3, R, T, C) of sum(upstream * time_features(...)); `lines` as returned there."""
     shape = planes_shape[1:]
     groups = shape[2] // LANES
-    line_gradients = np.zeros(lines.shape, np.float32)
+    line_gradients = zeros(lines.shape)
 
     def job(index: int) -> None:
         b, group = divmod(index, groups)
@@ -67,7 +68,7 @@ def time_gradient(
         )
 
     run_jobs(job, len(times) * groups)
-    out = np.zeros(planes_shape, np.float32)
+    out = zeros(planes_shape)
     for b, time in enumerate(times):
         slope_lines(float(time), shape, line_gradients[b].reshape(-1), out.reshape(-1))
     return out
