@@ -18,10 +18,12 @@ import numpy as np
 from genmojo_core.clip import folders
 from genmojo_core.clip.clip import Channel, Clip
 from genmojo_core.store.npz import read_tracks
+from genmojo_core.trackers.evidence import scene_of
+from genmojo_core.trackers.solver import SHORT_SIDE, SolveRequest, TrackSolver
 from genmojo_core.tracks import edit_tracks, keys
 from genmojo_core.tracks.annotation import Annotation, ObjectInfo
 from genmojo_core.tracks.model import OCCLUDED, VISIBLE, PointTracks
-from genmojo_core.trackers.solver import SHORT_SIDE, SolveRequest, TrackSolver
+from genmojo_core.tracks.suspicion import SUSPICIOUS, Spot, assess, queue
 
 FULL = (1920, 1080)
 OFF = 3.0
@@ -92,17 +94,28 @@ class Person:
                 self.row[made.track], self.keys[made.track], self.strokes[made.track] = int(row), 1, 0
                 keys.set_key(self.annotation, made.track, 0, self._click(int(row), 0)).do(self.annotation)
 
-    def run(self, stride: int = 2) -> Report:
-        """Seed, refine every `stride` frames."""
+    def run(self, stride: int = 2, share: float = 0.2) -> Report:
+        """Seed, refine every `stride` frames, then visit the first `share` of the queue."""
         for info in self.annotation.chosen_objects():
             self._solve(info.id, None)
         for t in range(stride, len(self.clip), stride):
-            self.visit(t)
+            self.visit(t, list(self.row))
+        for spot in self.worst(share):
+            self.visit(spot.frame, [spot.track])
         return self.report()
 
-    def visit(self, t: int) -> None:
-        """Look at a frame, correct what is wrong, accept it."""
-        for track, row in self.row.items():
+    def worst(self, share: float) -> list[Spot]:
+        """The first spots of the queue that are suspicious, at most this share of it."""
+        evidence = {}
+        for info in self.annotation.chosen_objects():
+            evidence |= self.solver.evidence(SolveRequest.of(self.annotation, info.id))
+        spots = queue(self.annotation, assess(self.annotation, scene_of(self.clip), evidence))
+        return [s for s in spots[: int(np.ceil(share * len(spots)))] if s.score >= SUSPICIOUS]
+
+    def visit(self, t: int, tracks: list[int]) -> None:
+        """Look at points in a frame, correct what is wrong, accept it."""
+        for track in tracks:
+            row = self.row[track]
             cells = self.annotation.track(track)
             seen = bool(self.truth.visible[row, t])
             off = float(np.linalg.norm(cells.xy[t] - self.truth.xy[row, t]))
@@ -118,7 +131,7 @@ class Person:
                     last += 1
                 state = VISIBLE if seen else int(self.truth.state[row, t])
                 keys.set_state(self.annotation, track, t, last, state or OCCLUDED).do(self.annotation)
-        keys.confirm(self.annotation, list(self.row), t).do(self.annotation)
+        keys.confirm(self.annotation, tracks, t).do(self.annotation)
 
     def report(self) -> Report:
         """How good it is now."""

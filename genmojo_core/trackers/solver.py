@@ -15,14 +15,16 @@ import numpy as np
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
-from genmojo_core.tracks import keys
-from genmojo_core.tracks.annotation import CONFIRMED, KEY, TRACKER, Annotation, Cells
-from genmojo_core.tracks.edits import Edit, join
-from genmojo_core.tracks.model import NONE
+from genmojo_core.trackers.evidence import evidence_of
 from genmojo_core.trackers.object_motion import ObjectMotion
 from genmojo_core.trackers.segment_solver import SPANS, solve_points
 from genmojo_core.trackers.stabilise import Layer, flat_shade
 from genmojo_core.trackers.visibility import states_of
+from genmojo_core.tracks import keys
+from genmojo_core.tracks.annotation import CONFIRMED, KEY, TRACKER, Annotation, Cells
+from genmojo_core.tracks.edits import Edit, join
+from genmojo_core.tracks.model import NONE
+from genmojo_core.tracks.suspicion import Evidence
 
 SHORT_SIDE = 540  # held px from which more only costs time
 _SLACK = 4.0  # source px at 1080p by which a link may miss a key before it is matched again
@@ -114,6 +116,18 @@ class TrackSolver:
             rows = rows if relinked else [row]
         xy[rows] = solve_points(motion, xy[rows], fixed[rows], first, end)
         return SolveAnswer(request, self._cells(motion, request, xy, fixed, (rows, first, end)))
+
+    def evidence(self, request: SolveRequest) -> dict[int, Evidence]:
+        """What the pictures say about the request's tracks as they stand, for `suspicion.assess`."""
+        if not request.tracks:
+            return {}
+        motion = self._motion(request.object_id)
+        xy = np.stack([c.xy for c in request.cells]).astype(np.float64) * self.scale
+        keyed = np.stack([(c.flags & KEY) > 0 for c in request.cells])
+        for t in np.flatnonzero(keyed.any(axis=0)):
+            self._relink(motion, xy, keyed, int(t))
+        found = evidence_of(motion, self._clip.frames, list(request.cells), self.scale)
+        return dict(zip(request.tracks, found, strict=True))
 
     def _relink(self, motion: ObjectMotion, xy: np.ndarray, fixed: np.ndarray, t: int) -> bool:
         """Match again what contradicts the places people are sure of in frame t and in frames around it."""

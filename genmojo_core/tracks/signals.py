@@ -1,0 +1,167 @@
+"""The nine signals of suspicion, each (T,) 0..1 per frame of one track. `unit` is the pixels that are one at 1080p."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from genmojo_core.tracks.annotation import KEY, Cells
+from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE
+
+_WINDOW = 9  # frames over which motion is compared
+_BORDER = 4.0  # px at 1080p
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Masks of a clip: labels (T, h, w), valid (T, h, w) bool, object id -> label, scale (2,) source -> mask px."""
+
+    labels: np.ndarray
+    valid: np.ndarray
+    label_of: dict[int, int]
+    scale: np.ndarray
+
+
+def kinematics(cells: Cells, others: list[Cells], unit: float) -> np.ndarray:
+    """Acceleration, after that of the object's other points is taken out, against what is usual around the frame."""
+    known = cells.state != NONE
+    own = _acceleration(cells)
+    rest = [_acceleration(o) for o in others]
+    if len(rest) >= 2:
+        own = own - np.ma.median(np.ma.masked_invalid(np.stack(rest)), axis=0).filled(0.0)
+    size = np.where(known, np.nan_to_num(np.linalg.norm(own, axis=1)), 0.0)
+    beside = np.maximum(np.append(size[1:], 0.0), np.append(0.0, size[:-1]))
+    size = np.where(size >= beside, size, 0.6 * size)  # a jump shows in the frames beside it too
+    usual = np.array([np.median(size[max(t - _WINDOW, 0) : t + _WINDOW + 1]) for t in range(len(size))])
+    return _rising((size - usual) / (1.5 * usual + 2.0 * unit), 2.0, 6.0)
+
+
+def links(cells: Cells, gap: np.ndarray | None, unit: float) -> np.ndarray:
+    """Distance to where matches from frames nearby put the point (forward and backward error), where it is seen."""
+    if gap is None:
+        return np.zeros(len(cells))
+    return _rising(np.where(cells.state == VISIBLE, np.nan_to_num(gap), 0.0) / unit, 2.5, 8.0)
+
+
+def look(likeness: np.ndarray | None, cells: Cells) -> np.ndarray:
+    """Pixels unlike those at the keys, against what is usual on this track."""
+    if likeness is None or not np.isfinite(likeness).any():
+        return np.zeros(len(cells))
+    drop = np.nanmedian(likeness) - likeness
+    return np.where(cells.state == VISIBLE, _rising(np.nan_to_num(drop), 0.15, 0.6), 0.0)
+
+
+def other_tracker(cells: Cells, other: np.ndarray | None, unit: float) -> np.ndarray:
+    """Distance to a second tracker's place."""
+    if other is None:
+        return np.zeros(len(cells))
+    return _rising(np.nan_to_num(np.linalg.norm(cells.xy - other, axis=1)) / unit, 4.0, 16.0)
+
+
+def mask(cells: Cells, scene: Scene | None, owner: int, agreement: np.ndarray | None) -> np.ndarray:
+    """Seen outside its object's mask, or hidden while the mask covers it.
+
+    An object hides its own far side, so the second is doubtful unless matches agree with the place.
+    """
+    if scene is None or owner not in scene.label_of:
+        return np.zeros(len(cells))
+    inside, depth = _inside(cells, scene, owner)
+    fits = np.full(len(cells), 0.3) if agreement is None else np.nan_to_num(agreement)
+    outside = _rising(-depth, 1.0, 4.0)
+    hidden = np.where(inside, (0.25 + 0.7 * fits) * _rising(depth, 0.5, 3.0), 0.0)
+    return np.where(cells.state == VISIBLE, outside, np.where(cells.state == OCCLUDED, hidden, 0.0))
+
+
+def affine_residual(cells: Cells, others: list[Cells], unit: float) -> np.ndarray:
+    """How far the steps to frames nearby are from an affine motion of the object's other points.
+
+    A solid that turns does not move affinely, so what is usual on this track is taken off.
+    """
+    out = np.zeros(len(cells))
+    if len(others) < 3:
+        return out
+    xy = np.stack([o.xy for o in others])
+    known = np.stack([o.state != NONE for o in others])
+    for reach in (1, 4):
+        error = np.full(len(cells), np.nan)
+        for t in range(len(cells) - reach):
+            both = known[:, t] & known[:, t + reach]
+            if both.sum() < 3 or cells.state[t] == NONE or cells.state[t + reach] == NONE:
+                continue
+            error[t] = _residual(xy[both, t], xy[both, t + reach], cells.xy[t], cells.xy[t + reach]) / unit
+        if np.isfinite(error).any():
+            size = 5.0 * np.sqrt(reach)
+            doubt = _rising(np.nan_to_num(error - np.nanmedian(error)), size, 4.0 * size)
+            out = np.maximum(out, np.maximum(doubt, np.concatenate([np.zeros(reach), doubt[:-reach]])))
+    return out
+
+
+def flicker(cells: Cells, size: tuple[int, int]) -> np.ndarray:
+    """States that last one or two frames, and points seen on the very border of the picture."""
+    out = np.zeros(len(cells))
+    edges = np.flatnonzero(np.diff(cells.state.astype(np.int16), prepend=-1, append=-1))
+    for first, end in zip(edges[:-1], edges[1:], strict=True):
+        inner = first > 0 and end < len(cells)
+        if inner and cells.state[first] != NONE and end - first < 3:
+            out[first:end] = 0.9 if end - first == 1 else 0.6
+    margin = _BORDER * size[1] / 1080.0
+    near = ((cells.xy < margin) | (cells.xy > np.array(size) - margin)).any(axis=1)
+    return np.maximum(out, np.where(near & (cells.state == VISIBLE), 0.5, 0.0))
+
+
+def confidence(cells: Cells) -> np.ndarray:
+    """The tracker's own doubt where it says the point is seen."""
+    return np.where(cells.state == VISIBLE, 1.0 - cells.conf, 0.0)
+
+
+def away_from_keys(cells: Cells) -> np.ndarray:
+    """Frames to the nearest key: half at 10."""
+    keys = np.flatnonzero(cells.flags & KEY)
+    if not len(keys):
+        return np.ones(len(cells))
+    away = np.abs(np.arange(len(cells))[:, None] - keys[None]).min(axis=1)
+    return away / (away + 10.0)
+
+
+def _acceleration(cells: Cells) -> np.ndarray:  # (T, 2), NaN where a neighbour is unknown
+    out = np.full((len(cells), 2), np.nan)
+    xy = np.where((cells.state == NONE)[:, None], np.nan, cells.xy)
+    out[1:-1] = xy[:-2] - 2 * xy[1:-1] + xy[2:]
+    return out
+
+
+def _rising(value: np.ndarray, low: float, high: float) -> np.ndarray:
+    """0 up to `low`, 1 from `high`, smooth between."""
+    share = np.clip((value - low) / (high - low), 0.0, 1.0)
+    return share * share * (3.0 - 2.0 * share)
+
+
+def _residual(source: np.ndarray, target: np.ndarray, here: np.ndarray, there: np.ndarray) -> float:
+    """Distance of `there` from where the motion of source (m, 2) to target (m, 2) takes `here`; nearly affine."""
+    middle, goal = np.median(source, axis=0), np.median(target, axis=0)
+    a, b = source - middle, target - goal
+    ridge = 0.05 * max(float(np.square(a).sum()), 1e-6) * np.eye(2)
+    linear = np.linalg.solve(a.T @ a + ridge, a.T @ b + ridge)
+    return float(np.linalg.norm((here - middle) @ linear + goal - there))
+
+
+def _inside(cells: Cells, scene: Scene, owner: int) -> tuple[np.ndarray, np.ndarray]:
+    """Whether each place is on its mask (T,), and mask pixels to the mask's edge (T,), negative outside, at most 5."""
+    reach, frames = 5, len(cells)
+    _, height, width = scene.labels.shape
+    grid = np.stack(np.meshgrid(np.arange(-reach, reach + 1), np.arange(-reach, reach + 1)), axis=-1).reshape(-1, 2)
+    distance = np.linalg.norm(grid, axis=1)
+    depth = np.zeros(frames)
+    inside = np.zeros(frames, bool)
+    for t in np.flatnonzero(cells.state != NONE):
+        here = np.floor(cells.xy[t] * scene.scale).astype(int)
+        column, row = (here + grid).T
+        shown = (column >= 0) & (column < width) & (row >= 0) & (row < height)
+        own = np.zeros(len(grid), bool)
+        at = row[shown], column[shown]
+        own[shown] = (scene.labels[t][at] == scene.label_of[owner]) & scene.valid[t][at]
+        inside[t] = own[len(grid) // 2]
+        unlike = distance[own != inside[t]]
+        depth[t] = (1 if inside[t] else -1) * float(unlike.min(initial=reach))
+    return inside, depth

@@ -1,0 +1,139 @@
+"""Suspicion: each signal fires on its own error and gives its reason, people's own keys are left alone, and errors put
+into good tracks of real pictures come first in the queue."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import annotations
+import injected_errors
+import numpy as np
+import pytest
+import simulated_annotator
+
+from genmojo_core.trackers.evidence import scene_of
+from genmojo_core.trackers.solver import SolveRequest, TrackSolver
+from genmojo_core.tracks import keys, suspicion
+from genmojo_core.tracks.annotation import Annotation
+from genmojo_core.tracks.model import OCCLUDED, VISIBLE
+from genmojo_core.tracks.signals import Scene
+from genmojo_core.tracks.suspicion import Calibration, Evidence, assess, queue
+
+DATA = Path(__file__).parents[3] / "shared" / "data"
+
+
+def moving(frames: int = 24) -> Annotation:
+    """Five points that move alike, keys at both ends."""
+    annotation = annotations.started(frames, 1, 5)
+    for track in annotation.tracks:
+        for t in (0, frames - 1):
+            keys.set_key(annotation, track, t, (300.0 + 70 * track + 9 * t, 400.0 + 40 * (track % 3))).do(annotation)
+    return annotation
+
+
+def shifted(annotation: Annotation, track: int, first: int, last: int, by: tuple[float, float]) -> None:
+    cells = annotation.cells(track, np.arange(first, last + 1))
+    cells.xy[:] += np.float32(by)
+    annotation.write_cells(track, np.arange(first, last + 1), cells)
+
+
+def masks_around(annotation: Annotation) -> Scene:
+    """One object that covers the picture's middle, at a quarter of the size."""
+    labels = np.zeros((annotation.frames, 270, 480), np.uint8)
+    labels[:, 60:200, 20:300] = 1
+    return Scene(labels, np.ones(labels.shape, bool), {1: 1}, np.array([0.25, 0.25]))
+
+
+def test_a_jump_is_the_worst_spot_and_says_why() -> None:
+    annotation = moving()
+    shifted(annotation, 3, 10, 10, (25.0, -12.0))
+    worst = queue(annotation, assess(annotation))[0]
+    assert (worst.track, worst.frame) == (3, 10)
+    assert "sudden motion" in worst.reasons
+
+
+def test_tracks_without_errors_are_not_suspicious_near_keys() -> None:
+    found = assess(moving())
+    assert max(float(s.score.max()) for s in found.values()) < suspicion.SUSPICIOUS
+
+
+def test_a_point_outside_its_mask_is_found_even_at_a_key() -> None:
+    annotation = moving()
+    keys.set_key(annotation, 2, 12, (1500.0, 900.0)).do(annotation)
+    found = assess(annotation, masks_around(annotation))[2]
+    assert found.score[12] > 0.8
+    assert found.reasons(12)[0] == "contradicts the object's mask"
+
+
+def test_a_hidden_point_on_its_own_mask_is_doubtful_when_matches_agree() -> None:
+    annotation = moving()
+    keys.set_state(annotation, 2, 8, 12, OCCLUDED).do(annotation)
+    cells = annotation.cells(2, np.arange(8, 13))
+    cells.flags[:] = 0  # a tracker said so, not a person
+    annotation.write_cells(2, np.arange(8, 13), cells)
+    sure = {2: Evidence(agreement=np.ones(24))}
+    unsure = {2: Evidence(agreement=np.zeros(24))}
+    high = assess(annotation, masks_around(annotation), sure)[2].score[8:13].min()
+    low = assess(annotation, masks_around(annotation), unsure)[2].score[8:13].max()
+    assert high > 0.5 > low
+
+
+def test_keys_are_above_suspicion_and_accepted_frames_nearly() -> None:
+    annotation = moving()
+    shifted(annotation, 3, 10, 10, (25.0, -12.0))
+    before = assess(annotation)[3].score[10]
+    keys.confirm(annotation, [3], 10).do(annotation)
+    accepted = assess(annotation)[3].score[10]
+    x, y = annotation.track(3).xy[10]
+    keys.set_key(annotation, 3, 10, (float(x), float(y))).do(annotation)
+    assert assess(annotation)[3].score[10] == 0
+    assert 0 < accepted < 0.5 * before
+
+
+def test_a_state_of_one_frame_is_doubtful() -> None:
+    annotation = moving()
+    cells = annotation.cells(1, np.array([9]))
+    cells.state[:] = OCCLUDED
+    annotation.write_cells(1, np.array([9]), cells)
+    assert "state changes back and forth" in assess(annotation)[1].reasons(9)
+
+
+def test_what_people_correct_and_accept_teaches_whom_to_trust() -> None:
+    annotation = moving()
+    shifted(annotation, 3, 10, 10, (25.0, -12.0))
+    calibration = Calibration()
+    for _ in range(40):
+        found = assess(annotation, calibration=calibration)[3]
+        calibration.learn(found, 10, corrected=False)
+    taught = assess(annotation, calibration=calibration)[3].score[10]
+    assert taught < 0.6 * assess(annotation)[3].score[10]
+
+
+def test_the_queue_covers_every_frame_once() -> None:
+    annotation = moving()
+    shifted(annotation, 3, 10, 14, (25.0, -12.0))
+    seen = np.zeros((6, 24), int)
+    for spot in queue(annotation, assess(annotation)):
+        seen[spot.track, spot.first : spot.last + 1] += 1
+    assert (seen[1:] == 1).all()
+
+
+@pytest.mark.clips
+@pytest.mark.parametrize("name", ["blender-cross", pytest.param("blender-trio", marks=pytest.mark.slow)])
+def test_nine_of_ten_errors_are_in_the_first_fifth_of_the_queue(name: str) -> None:
+    if not (DATA / name).is_dir():
+        pytest.skip(f"{name} is not beside the checkout")
+    clip = simulated_annotator.full_hd(DATA / name, 270)
+    truth = simulated_annotator.truth_of(DATA / name)
+    solver, shares = TrackSolver(clip), []
+    for seed in range(3):
+        rng = np.random.default_rng(seed)
+        annotation = injected_errors.annotated(truth, rng, points=12)
+        errors = injected_errors.inject(annotation, rng, 8)
+        evidence = {}
+        for owner in annotation.chosen_objects():
+            evidence |= solver.evidence(SolveRequest.of(annotation, owner.id))
+        spots = queue(annotation, assess(annotation, scene_of(clip), evidence))
+        shares.append(injected_errors.found_share(spots, errors)[0])
+    assert (annotation.track(1).state == VISIBLE).any()
+    assert np.mean(shares) >= 0.9
