@@ -39,7 +39,7 @@ class CpuView(QWidget):
         self._pixels: np.ndarray | None = None  # keeps the image's memory
         self._newest: FrameRequest | None = None
         self._finished.connect(self._show, Qt.ConnectionType.QueuedConnection)
-        self._drawer = _Drawer(self._finished.emit, self.failed.emit)
+        self._drawer = Drawer(self._finished.emit, self.failed.emit)
         self.destroyed.connect(self._drawer.stop)
 
     def show_frame(self, request: FrameRequest) -> None:
@@ -89,7 +89,7 @@ class CpuView(QWidget):
         return max(1, round(self.width() * ratio)), max(1, round(self.height() * ratio))
 
 
-class _Drawer:
+class Drawer:
     """The thread: one request waits at most. Knows no widget."""
 
     def __init__(self, finished: Callable[..., None], failed: Callable[..., None]) -> None:

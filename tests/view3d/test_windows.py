@@ -19,7 +19,7 @@ def display() -> Iterator[str]:
 
 @pytest.mark.parametrize("way", WAYS)
 def test_a_view_lives(display: str, way: str) -> None:
-    """It shows what the optimiser sees, turns under the mouse, answers clicks, and two views do not disturb each other."""
+    """It shows what the optimiser sees, turns under the mouse, answers clicks; two views do not disturb each other."""
     answer = run_window(display, way, "life")
     _check_life(answer, "SplatView")
 

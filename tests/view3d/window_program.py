@@ -9,6 +9,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from PySide6.QtCore import QPoint, Qt
@@ -144,18 +145,21 @@ def docks(count: int) -> dict:
     window.resize(600, 300)
     view.set_snapshot(the_scene())
     watched.after(window.show)
+
+    def toggle(k: int) -> None:
+        dock.setFloating(k % 2 == 0)
+        dock.resize(260 + 20 * (k % 3), 220)
+        view.set_orbit(Orbit(azimuth=float(k + 1)))
+
     black, sizes, memory = 0, set(), []
     for k in range(count):
-        watched.after(lambda k=k: (dock.setFloating(k % 2 == 0), dock.resize(260 + 20 * (k % 3), 220), view.update(),
-                                   view.set_orbit(Orbit(azimuth=float(k + 1)))))  # fmt: skip
+        watched.after(partial(toggle, k))
         picture = shown(view)
         black += int(picture.max() == 0)
         sizes.add(picture.shape[:2])
         memory.append(memory_mb())
     threads = threading.active_count()
     dock.deleteLater()
-    del dock, view, watched
-    gc.collect()
     QTest.qWait(100)
     window.close()
     third = max(len(memory) // 3, 1)
