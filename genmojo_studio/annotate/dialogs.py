@@ -90,7 +90,7 @@ class Dialogs:
 
         name, _ = QFileDialog.getSaveFileName(self._w, tr("Export tracks"), "tracks.npz", "npz (*.npz)")
         if name:
-            self._try(lambda: write_tracks(Path(name), self._s.annotation.to_tracks()))
+            self._try(lambda: write_tracks(self._s.annotation.to_tracks(), Path(name)))
 
     def _try(self, work: object) -> None:
         try:

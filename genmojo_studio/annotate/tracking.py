@@ -163,7 +163,7 @@ class Tracking(QObject):
         session, clip = self._session, self._session.clip
         if self._closed or self._gathering or clip is None or clip.masks is None:
             return
-        wanted = [o for o in self._stale if o in clip.object_ids.tolist()]
+        wanted = [o for o in self._stale if o in clip.object_ids.tolist() and self._is_seeded(o)]
         self._stale.clear()
         requests = [SolveRequest.of(session.annotation, o) for o in wanted]
         self._gathering = True
@@ -175,6 +175,12 @@ class Tracking(QObject):
             return found
 
         self.tasks.run(work, self._gathered, self._failed)
+
+    def _is_seeded(self, object_id: int) -> bool:
+        """Whether any track of an object goes beyond the frames that a person placed."""
+        annotation = self._session.annotation
+        return any(np.count_nonzero(annotation.track(i.id).state) > len(annotation.keys(i.id))
+                   for i in annotation.tracks_of(object_id))  # fmt: skip
 
     def _gathered(self, evidence: dict[int, Evidence]) -> None:
         self._gathering = False

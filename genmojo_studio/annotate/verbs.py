@@ -18,7 +18,10 @@ DOUBT = 0.5  # suspicion from which Enter does not accept a point unseen
 
 
 def place(session: Session, xy: tuple[float, float], *, snapped: bool = False) -> int | None:
-    """Put the active point of the frame at a raster position, as a new track if it has none. Returns the step."""
+    """Put the active point of the frame at a raster position, as a new track if it has none; it is seen there.
+
+    Dragging keeps the state instead (`set_key`), so that the place of a hidden point can be put right. Returns the step.
+    """
     object_id, number = session.active
     track = session.track
     if object_id not in session.annotation.objects:
@@ -26,13 +29,15 @@ def place(session: Session, xy: tuple[float, float], *, snapped: bool = False) -
         return None
     if track is None:
         return session.do(_first_key(session, object_id, number, xy, snapped=snapped))
-    return set_key(session, track, xy, snapped=snapped)
+    return set_key(session, track, xy, state=VISIBLE, snapped=snapped)
 
 
-def set_key(session: Session, track: int, xy: tuple[float, float], *, snapped: bool = False) -> int | None:
-    """A person puts a track's point of the frame somewhere. A hidden or absent point stays so; returns the step."""
+def set_key(
+    session: Session, track: int, xy: tuple[float, float], *, state: int | None = None, snapped: bool = False
+) -> int | None:
+    """A person puts a track's point of the frame somewhere; without `state` a hidden one stays hidden. The step."""
     try:
-        edit = keys.set_key(session.annotation, track, session.frame, xy, snapped=snapped)
+        edit = keys.set_key(session.annotation, track, session.frame, xy, state, snapped)
     except GenmojoError as error:
         session.said.emit(str(error))
         return None

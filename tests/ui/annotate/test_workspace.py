@@ -1,0 +1,271 @@
+"""The annotator with real widgets: what a person does with mouse and keys, and what stands afterwards.
+
+Not covered here: how good the trackers are (tests/trackers, tests/acceptance/5.py) and speed (tests/benchmarks).
+"""
+
+import sys
+
+import numpy as np
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+
+from genmojo_core.store.npz import read_tracks
+from genmojo_core.store.project import Project
+from genmojo_core.tracks.annotation import KEY
+from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE
+
+
+def at(workspace, x, y):
+    """Widget pixel of a raster position."""
+    wx, wy = workspace.canvas.mapping.to_widget(x, y)
+    return QPoint(round(wx), round(wy))
+
+
+def click(workspace, x, y):
+    QTest.mouseClick(workspace.canvas, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, at(workspace, x, y))
+
+
+def drag(workspace, start, end):
+    """Press at a raster place, move in three steps, let go."""
+    QTest.mousePress(workspace.canvas, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, at(workspace, *start))
+    for share in (0.4, 0.8, 1.0):
+        x, y = (a + (b - a) * share for a, b in zip(start, end, strict=True))
+        QTest.mouseMove(workspace.canvas, at(workspace, x, y))
+    QTest.mouseRelease(workspace.canvas, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, at(workspace, *end))
+
+
+def choose_all(workspace):
+    for row in range(workspace.objects.table.rowCount()):
+        workspace.objects.table.selectRow(row)
+        workspace.objects.choose_button.click()
+
+
+def place_points(workspace, each=2):
+    """Step 2 with `each` points per object, on their masks; returns the raster places."""
+    workspace.show_step(1)
+    session = workspace.session
+    labels = session.cache.mask(0)
+    placed = []
+    for info in session.objects():
+        session.select(info.id, 1)
+        rows, columns = np.nonzero(labels == info.id)
+        for share in np.linspace(0.3, 0.7, each):
+            k = int(share * len(rows))
+            placed.append((columns[k] + 0.5, rows[k] + 0.5))
+            click(workspace, *placed[-1])
+    return placed
+
+
+def seed(workspace, qtbot):
+    workspace.work.tracker.seed([o.id for o in workspace.session.objects()])
+    qtbot.waitUntil(lambda: all((workspace.session.annotation.track(t).state != NONE).all()
+                                for t in workspace.session.annotation.tracks), timeout=120_000)  # fmt: skip
+
+
+def test_the_whole_path_with_mouse_and_keys(workspace, qtbot, tmp_path, monkeypatch):
+    """Open, objects, points, seed, correct, states, review, export: and the file holds what was done."""
+    session = workspace.session
+    assert workspace.objects.table.rowCount() == len(session.clip.object_ids) >= 2
+    choose_all(workspace)
+    assert [o.status for o in session.objects()] == ["chosen"] * len(session.clip.object_ids)
+    places = place_points(workspace)
+    assert len(session.annotation.tracks) == len(places)
+    for track, (x, y) in zip(session.annotation.tracks, places, strict=True):
+        np.testing.assert_allclose(session.annotation.track(track).xy[0], (x, y), atol=0.5 / workspace.canvas.mapping.zoom)
+    seed(workspace, qtbot)
+    workspace.show_step(2)
+
+    track, t = next(iter(session.annotation.tracks)), 6
+    session.select_track(track)
+    session.go(t)
+    qtbot.waitUntil(lambda: workspace.screen_link.painted == t)
+    x, y = map(float, session.annotation.track(track).xy[t])
+    before = session.annotation.digest()
+    shift = 30 / workspace.canvas.mapping.zoom
+    drag(workspace, (x, y), (x + shift, y))
+    cells = session.annotation.track(track)
+    assert cells.flags[t] & KEY and abs(cells.xy[t, 0] - x - shift) < 1.5 / workspace.canvas.mapping.zoom
+    qtbot.waitUntil(lambda: not workspace.work.tracker.tasks.busy, timeout=60_000)
+    session.undo()  # key and what the solver made of it are one step
+    assert session.annotation.digest() == before
+    session.redo()
+    assert session.annotation.track(track).flags[t] & KEY
+
+    workspace.show_step(3)
+    workspace.actions.trigger("annotate.review.approve")
+    assert session.annotation.tracks[track].review == "approved"
+    target = tmp_path / "out.npz"
+    monkeypatch.setattr("PySide6.QtWidgets.QFileDialog.getSaveFileName", lambda *a, **k: (str(target), ""))
+    workspace.actions.trigger("annotate.file.export")
+    qtbot.waitUntil(target.exists, timeout=20_000)
+    stored = read_tracks(target, session.annotation.size)
+    assert stored.xy.shape[:2] == (len(places), session.annotation.frames)
+
+    path, digest = session.project.path, session.annotation.digest()
+    workspace.close_clip()
+    again = Project.open(path)
+    assert again.annotation.digest() == digest
+    again.close()
+
+
+def test_a_state_key_held_while_stepping_paints_one_run(workspace, qtbot):
+    choose_all(workspace)
+    place_points(workspace, each=1)
+    seed(workspace, qtbot)
+    workspace.show_step(2)
+    session = workspace.session
+    track = session.track
+    session.go(4)
+    steps = len(session.project.history())
+    workspace.canvas.setFocus()
+    QTest.keyPress(workspace.canvas, Qt.Key.Key_Q)
+    for _ in range(3):
+        QTest.keyClick(workspace.canvas, Qt.Key.Key_Right)
+    assert len(session.project.history()) == steps, "nothing is stored before the key comes up"
+    QTest.keyRelease(workspace.canvas, Qt.Key.Key_Q)
+    assert (session.annotation.track(track).state[4:8] == OCCLUDED).all() and session.frame == 7
+    session.undo()
+    assert not (session.annotation.track(track).state[4:8] == OCCLUDED).all()
+
+
+def test_enter_stops_at_doubts_and_accepts_the_rest(workspace, qtbot):
+    choose_all(workspace)
+    place_points(workspace, each=1)
+    seed(workspace, qtbot)
+    workspace.show_step(2)
+    session = workspace.session
+    qtbot.waitUntil(lambda: not workspace.work.tracker.tasks.busy and not workspace.work.tracker._look.isActive(),
+                    timeout=60_000)  # fmt: skip
+    session.suspicion = {t: np.zeros(session.annotation.frames) for t in session.annotation.tracks}
+    doubted = list(session.annotation.tracks)[-1]
+    session.suspicion[doubted][2] = 0.9
+    session.select_track(next(iter(session.annotation.tracks)))
+    session.go(2)
+    workspace.actions.trigger("annotate.move.accept")
+    assert session.frame == 2 and session.track == doubted
+    workspace.actions.trigger("annotate.move.accept")
+    assert session.frame == 4
+    confirmed = session.annotation.at(2).flags
+    assert (confirmed & 4).all()
+
+
+def test_a_click_hits_the_pixel_it_shows_at_every_zoom(workspace):
+    """Clicking the middle of a widget pixel gives the raster place under it, at any zoom and pan."""
+    choose_all(workspace)
+    workspace.show_step(1)
+    canvas, got = workspace.canvas, []
+    canvas.clicked.connect(lambda x, y: got.append((x, y)))
+    for zoom in (1.0, 3.0, 7.5):
+        canvas.zoom(zoom / canvas.mapping.zoom)
+        for x, y in ((12.5, 20.5), (40.5, 33.5)):
+            canvas.mapping = canvas.mapping.centred(x, y, (canvas.width(), canvas.height()))
+            workspace.session.select(workspace.session.objects()[0].id, 1)
+            click(workspace, x, y)
+            assert np.hypot(got[-1][0] - x, got[-1][1] - y) <= 0.75 / zoom
+
+
+def test_zoom_survives_frame_changes_and_nudges_are_a_quarter_pixel(workspace, qtbot):
+    choose_all(workspace)
+    place_points(workspace, each=1)
+    session, canvas = workspace.session, workspace.canvas
+    canvas.zoom(3.0)
+    zoom = canvas.mapping
+    session.go(5)
+    qtbot.waitUntil(lambda: workspace.screen_link.painted == 5)
+    assert canvas.mapping == zoom
+    session.go(0)
+    x, y = session.annotation.track(session.track).xy[0].tolist()
+    QTest.keyClick(canvas, Qt.Key.Key_Right, Qt.KeyboardModifier.ControlModifier)
+    QTest.keyClick(canvas, Qt.Key.Key_Down, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
+    np.testing.assert_allclose(session.annotation.track(session.track).xy[0], (x + 0.25, y + 1.0), atol=1e-4)
+
+
+def test_the_dope_sheet_seeks_and_paints(workspace, qtbot):
+    choose_all(workspace)
+    place_points(workspace, each=1)
+    seed(workspace, qtbot)
+    workspace.show_step(2)
+    sheet, session = workspace.play.sheet, workspace.session
+    qtbot.wait(50)
+    row, view = 0, sheet.viewport()
+
+    def cell(frame):
+        return QPoint(round(sheet.x_of(frame + 0.5)), 30 + 18 * row + 9)
+
+    QTest.mouseClick(view, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, cell(9))
+    assert session.frame == 9 and session.track == sheet.rows()[0]
+    QTest.mousePress(view, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, cell(10))
+    QTest.mouseMove(view, cell(11))
+    QTest.mouseMove(view, cell(13))
+    QTest.mouseRelease(view, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, cell(13))
+    assert (session.annotation.track(sheet.rows()[0]).state[10:14] == OCCLUDED).all()
+    assert session.annotation.track(sheet.rows()[0]).state[9] == VISIBLE
+
+
+def test_review_returns_a_track_with_reason_and_run(workspace, qtbot, monkeypatch):
+    choose_all(workspace)
+    place_points(workspace, each=1)
+    seed(workspace, qtbot)
+    workspace.show_step(3)
+    session, track = workspace.session, workspace.session.track
+    session.go(3)
+    workspace.actions.trigger("annotate.point.run_start")
+    session.go(6)
+    workspace.actions.trigger("annotate.point.run_end")
+    workspace.review.reason.setCurrentIndex(2)
+    workspace.review.note.setText("jumps to the other one")
+    workspace.review.fix_button.click()
+    info = session.annotation.tracks[track]
+    assert (info.review, info.reason, info.run, info.person) == ("needs_fix", "swap", (3, 6), "Ada")
+    assert "came back" in workspace.bar.buttons[2].toolTip() or workspace._steps_later.isActive()
+
+
+def test_every_action_is_bound_and_has_no_rival(workspace):
+    from genmojo_studio.actions import PRESETS
+    from genmojo_studio.annotate.actions import ACTIONS
+
+    unbound = [a.id for a in ACTIONS if not workspace.actions.is_bound(a.id)]
+    assert not unbound
+    for preset in PRESETS:
+        workspace.actions.set_preset(preset)
+        assert workspace.actions.conflicts() == []
+    workspace.actions.set_preset("Studio")
+
+
+def test_all_that_can_be_pressed_has_a_name_and_takes_the_keyboard(workspace):
+    from PySide6.QtWidgets import QAbstractButton, QAbstractItemView, QComboBox
+
+    nameless = []
+    for kind in (QAbstractButton, QAbstractItemView, QComboBox):
+        for widget in workspace.findChildren(kind):
+            own = widget.metaObject().className().startswith("Q") and widget.objectName().startswith("qt_")
+            if own or isinstance(widget.parent(), QComboBox) or widget.parent().metaObject().className() in (
+                "QDockWidget", "QComboBoxPrivateContainer", "QTabBar", "QTableWidget"):  # fmt: skip
+                continue
+            text = widget.accessibleName() or (widget.text() if isinstance(widget, QAbstractButton) else "")
+            if not (text or widget.toolTip()):
+                nameless.append((widget.metaObject().className(), widget.objectName()))
+    assert not nameless
+    workspace.canvas.setFocus()
+    seen = set()
+    for _ in range(4):
+        workspace.actions.trigger("annotate.move.panel")
+        focus = workspace.focusWidget()
+        seen.add(next(n for n, w in enumerate((workspace.canvas, workspace.buttons, workspace.pages, workspace.play))
+                      if w is focus or w.isAncestorOf(focus)))  # fmt: skip
+    assert seen == {0, 1, 2, 3}
+
+
+def test_repaints_do_not_lose_references_to_none(workspace, qapp):
+    """PySide6 6.12.0 drops None in every paint until the interpreter dies; the pinned versions must not."""
+    choose_all(workspace)
+    place_points(workspace, each=1)
+    for _ in range(20):
+        workspace.canvas.repaint()
+    start = sys.getrefcount(None)
+    for k in range(400):
+        workspace.session.go(k % 6)
+        workspace.canvas.repaint()
+        workspace.play.sheet.viewport().repaint()
+        qapp.processEvents()
+    assert abs(sys.getrefcount(None) - start) < 300, "one reference per repaint is lost or leaked"
