@@ -2,7 +2,8 @@
 
 RELIABILITY.md N27: a non-finite Gaussian is made transparent and neutral before it is rendered; a non-finite gradient
 row loses its say in this step; a non-finite shared parameter skips the step; three bad steps in a row go back to the
-last good snapshot, and a run that cannot leave it ends with GenmojoError("numeric").
+last good snapshot, and a run that cannot leave it ends with GenmojoError("numeric"). N11: logits of opacities stay
+within +-12, where a sigmoid still has a gradient.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import torch
 from torch import Tensor
 
 from genmojo_core.errors import GenmojoError
+from genmojo_core.scene import safemath
 from genmojo_core.scene.gaussians import Gaussians
 from genmojo_core.scene.scene4d import Scene4D
 
@@ -51,7 +53,7 @@ class Guard:
         return sets + ([("background", self.scene.background)] if self.scene.background is not None else [])
 
     def quarantine(self) -> list[str]:
-        """Neutralise Gaussians with non-finite parameters; returns a sentence per owner, empty if all is well."""
+        """Neutralise Gaussians with non-finite parameters, limit logits; a sentence per owner, none if all is well."""
         found = []
         for owner, gaussians in self.all_gaussians():
             bad = torch.zeros(len(gaussians), dtype=torch.bool)
@@ -64,6 +66,8 @@ class Guard:
                 self._neutralise(gaussians, bad)
                 self.quarantined[owner] = self.quarantined.get(owner, 0) + count
                 found.append(f"{count} Gaussians of {owner} were not finite and were made transparent")
+            with torch.no_grad():
+                gaussians.logit_opacities.clamp_(-safemath.LOGIT_LIMIT, safemath.LOGIT_LIMIT)
         return found
 
     def judge(self, loss: Tensor) -> Verdict:

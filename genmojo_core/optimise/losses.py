@@ -6,6 +6,8 @@ where nothing is to be compared. All pixels that are void or held out are left o
 
 from __future__ import annotations
 
+import math
+
 import torch
 from torch import Tensor
 
@@ -15,6 +17,7 @@ from genmojo_core.scene import safemath
 from genmojo_core.scene.scene4d import Layout
 
 HALF = 0.5
+REACHED = 1e-3  # coverage by which an object has reached a pixel
 GUESSED_DEPTH = 0.1  # weight of a guessed depth's shape against a measured depth's value
 FLOW_LIMIT = 10.0  # flow errors above this many percent of the diagonal are taken for wrong flow
 
@@ -42,6 +45,29 @@ def coverage_loss(rendering: Rendering, layout: Layout, target: FrameTargets, in
     """Squared error of the objects' joint coverage (their labels' sum) against the union of masks, balanced."""
     coverage = rendering.features[..., 3 : 3 + layout.labels].sum(-1)
     return balanced((coverage - inside) ** 2, inside, target.seen)
+
+
+def miss_loss(rendering: Rendering, layout: Layout, target: FrameTargets, centres: Tensor) -> Tensor:
+    """Huber distance of an object's centre to its mask's, in 1 % of the diagonal, where it misses its mask altogether.
+
+    A pixel that no splat reaches can pull at nothing (RELIABILITY.md N14): without this an object that starts beside
+    its mask would stay there. Zero as soon as one pixel of the mask shows the object.
+
+    Args:
+        centres: (objects, 2) raster pixels.
+    """
+    height, width = target.labels.shape
+    missed, expected = [], []
+    for k in range(layout.labels):
+        mask = (target.labels == k + 1) & (target.seen > 0)
+        if bool(mask.any()) and not bool((mask & (rendering.features[..., 3 + k].detach() > REACHED)).any()):
+            rows, columns = torch.nonzero(mask, as_tuple=True)
+            missed.append(k)
+            expected.append(torch.stack([columns.float().mean(), rows.float().mean()]) + 0.5)
+    if not missed:
+        return centres.sum() * 0.0
+    distance = safemath.safe_norm(centres[missed] - torch.stack(expected)) / (0.01 * math.hypot(height, width))
+    return torch.where(distance < 1.0, 0.5 * distance * distance, distance - 0.5).sum() / layout.labels
 
 
 def label_loss(rendering: Rendering, layout: Layout, target: FrameTargets) -> Tensor:

@@ -108,6 +108,8 @@ class Objective:
             "alpha": losses.coverage_loss(rendering, layout, target, inside),
             "depth": losses.depth_loss(rendering, layout, target),
         }
+        if now:
+            terms["alpha"] = terms["alpha"] + losses.miss_loss(rendering, layout, target, self._centres(t, now))
         if self.labels:
             terms["labels"] = losses.label_loss(rendering, layout, target)
         if layout.flow:
@@ -115,6 +117,11 @@ class Objective:
         if self.order:
             terms["depth_order"] = self._order_term(t, now, rendering, target)
         return terms
+
+    def _centres(self, t: int, now: list[ObjectState]) -> Tensor:
+        """(objects, 2) pixels of the objects' mean positions."""
+        means = torch.stack([s.means.mean(dim=0) for s in now])
+        return safemath.project(means, self.scene.w2c[t], self.scene.K[t], self.scene.cameras.near)[0]
 
     def _order_term(self, t: int, now: list[ObjectState], rendering: Rendering, target: FrameTargets) -> Tensor:
         means = torch.cat([s.means for s in now])

@@ -123,8 +123,12 @@ def test_n07_a_crop_is_a_slice_of_the_picture(seed: int) -> None:
 
 
 @pytest.mark.parametrize(
-    "size", [(1, 1), (15, 17), (16, 16), (17, 31), (3, 200), (854, 480), (1920, 1080), (1920, 1200)]
-)
+    "size",
+    [
+        (1, 1), (15, 17), (16, 16), (17, 31), (3, 200), (854, 480), (1920, 1080), (1920, 1200),
+        pytest.param((3840, 2160), marks=pytest.mark.slow),
+    ],
+)  # fmt: skip
 def test_n09_any_size_equals_brute_force(size: tuple[int, int]) -> None:
     splats = random_splats(50, 2, 7, size=0.03)
     view = camera(*size)
