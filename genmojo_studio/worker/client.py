@@ -191,6 +191,7 @@ class WorkerClient(QObject):
         self._layers: Layers | None = None
         self._snapshot: SceneSnapshot | None = None
         self._force_at = float("inf")
+        self.latency = 0.0  # seconds from the worker's publishing to the last snapshot
         self._count = 0
         self._versions = 0
 
@@ -350,6 +351,7 @@ class WorkerClient(QObject):
             found = self._readers["now"].latest()
             if found is not None:
                 self._snapshot = unpack_now(found)
+                self.latency = time.monotonic() - found.published
         if self._snapshot is not None:
             self._versions += 1
             self._snapshot = with_layers(self._snapshot, self._layers, self._versions)

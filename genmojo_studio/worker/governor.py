@@ -11,13 +11,15 @@ import statistics
 from collections import deque
 from dataclasses import dataclass
 
-SHARE = 0.03  # of the run's time that the view may take
+SHARE = 0.02  # of the run's time that previews may take
+SWEEP_SHARE = 0.01  # and the sweep over all frames: together 3 %
 CADENCE_SECONDS = {"off": None, "slow": 1.0, "live": 0.0}
 MIN_INTERVAL = 0.03  # seconds: nobody sees more than 33 previews a second
 MAX_INTERVAL = 20.0
 PROBE_EVERY = 200
 PROBE_STEPS = 5
 _SMOOTHING = 0.2
+_WINDOW = 20.0  # seconds over which the share is measured
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,7 @@ class Governor:
         self._due = 0.0
         self._stretch = 1.0
         self._draw_share = 0.0
+        self._spent: deque[tuple[float, float]] = deque()  # when, seconds
         self._steps: deque[float] = deque(maxlen=4 * PROBE_STEPS)
         self._probe: list[float] = []
         self._since_probe = 0
@@ -65,6 +68,11 @@ class Governor:
         """A preview was published; it took the worker some seconds."""
         self._cost = seconds if self._cost is None else (1 - _SMOOTHING) * self._cost + _SMOOTHING * seconds
         self._due = now + self.interval()
+        self.spent(now, seconds)
+
+    def spent(self, now: float, seconds: float) -> None:
+        """The view took some seconds of the worker."""
+        self._spent.append((now, seconds))
 
     def interval(self) -> float:
         """Seconds between previews, such that they take at most SHARE of the run."""
@@ -83,12 +91,13 @@ class Governor:
             self._steps.append(seconds)
             self._since_probe += 1
 
-    def cost(self) -> ViewCost:
-        """What the view costs now."""
-        interval = self.interval()
-        if self._floor is None:
-            return ViewCost(0.0, 0.0, 0.0)
-        return ViewCost(min(1.0, (self._cost or 0.0) / interval), self._draw_share, interval)
+    def cost(self, now: float) -> ViewCost:
+        """What the view costs: publishing as measured over the last seconds, drawing as last probed."""
+        while self._spent and self._spent[0][0] < now - _WINDOW:
+            self._spent.popleft()
+        share = sum(seconds for _, seconds in self._spent) / _WINDOW
+        off = self._floor is None
+        return ViewCost(min(1.0, share), 0.0 if off else self._draw_share, 0.0 if off else self.interval())
 
     def _judge(self) -> None:
         """Compare steps with and without drawing; draw less often while it costs more than SHARE."""

@@ -102,7 +102,7 @@ class Host:
         quiet = time.monotonic() - session.touched
         stepping = self.phase == "stepping"
         allowed = max(STUCK_SECONDS, STUCK_STEPS * session.step_seconds) if stepping else PHASE_SECONDS
-        cost = self.governor.cost()
+        cost = self.governor.cost(time.monotonic())
         return {
             "phase": self.phase, "note": self.note, "step": session.step, "step_seconds": session.step_seconds,
             "quiet": quiet, "stuck": quiet > max(allowed, self.compiling), "cadence": self.governor.cadence,

@@ -13,11 +13,10 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from genmojo_studio.worker.governor import Governor
+from genmojo_studio.worker.governor import SWEEP_SHARE, Governor
 from genmojo_studio.worker.preview_bus import BusWriter, size_of
 from genmojo_studio.worker.preview_codec import Arrays, FrameArrays, Setting, pack_layers, pack_now
 
-SWEEP_SHARE = 0.01  # of the run's time
 _ROOM = 1.5  # a bus is made so much larger than its first preview
 
 
@@ -76,7 +75,9 @@ class Publisher:
         frames = run.setting().frames
         while self._owed > time.perf_counter() - begun and not self._sweep_frame(run, step, frames):
             pass
-        self._owed -= time.perf_counter() - begun
+        took = time.perf_counter() - begun
+        self._owed -= took
+        self.governor.spent(time.monotonic(), took)
 
     def sweep_all(self, run: Viewed, step: int) -> None:
         """All frames at once, as they stand."""

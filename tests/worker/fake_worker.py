@@ -13,6 +13,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -50,6 +51,7 @@ class FakeRun:
         self.fault, self.at = options.get("fault", ""), int(options.get("at", 5))
         self.clock, self.reference = FakeClock(), self.frames // 2
         self.stopped, self.done = False, 0
+        self.still: Cloud | None = None
         self.checkpoint_path = host.folder / "checkpoint.json"
         if host.request.resume:
             self.done = json.loads(self.checkpoint_path.read_text())["step"]
@@ -66,12 +68,16 @@ class FakeRun:
 
     def live(self, t: int) -> Cloud:
         n = self.count
-        means = np.random.default_rng(0).normal(size=(n, 3)) + [0, 0, 4]
-        means[: n // 2, 0] += 0.1 * t
-        means[:, 1] += 0.001 * self.done
-        owner = np.where(np.arange(n) < n // 2, 1, 0).astype(np.uint16)
-        return Cloud(means, np.tile([1.0, 0, 0, 0], (n, 1)), np.full((n, 3), 0.05), np.full(n, 0.8),
-                     np.full((n, 3), 0.5), owner, np.arange(n, dtype=np.uint64))  # fmt: skip
+        if self.still is None:
+            owner = np.where(np.arange(n) < n // 2, 1, 0).astype(np.uint16)
+            means = (np.random.default_rng(0).normal(size=(n, 3)) + [0, 0, 4]).astype(np.float32)
+            self.still = Cloud(means, np.tile(np.float32([1, 0, 0, 0]), (n, 1)), np.full((n, 3), 0.05, np.float32),
+                               np.full(n, 0.8, np.float32), np.full((n, 3), 0.5, np.float32), owner,
+                               np.arange(n, dtype=np.uint64))  # fmt: skip
+        means = self.still.means.copy()
+        means[: n // 2, 0] += np.float32(0.1 * t)
+        means[:, 1] += np.float32(0.001 * self.done)
+        return replace(self.still, means=means)
 
     def stop(self) -> None:
         self.stopped = True
