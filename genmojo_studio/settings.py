@@ -12,10 +12,10 @@ _MOST_RECENT = 12
 
 
 class Settings:
-    """Thin, typed cover of QSettings; another organisation name keeps tests apart from a person's own settings."""
+    """Thin, typed cover of QSettings; all instances share what is stored."""
 
-    def __init__(self, organisation: str = "GenMOJO", application: str = "Studio") -> None:
-        self._store = QSettings(organisation, application)
+    def __init__(self) -> None:
+        self._store = QSettings("GenMOJO", "Studio")
 
     def text(self, key: str, default: str = "") -> str:
         """A stored text."""

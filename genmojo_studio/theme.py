@@ -170,6 +170,7 @@ QCheckBox::indicator:checked, QAbstractItemView::indicator:checked { background:
 QCheckBox::indicator:focus { border: 1px solid @accent@; }
 QAbstractItemView { background: @field@; border: 1px solid @line@; selection-background-color: @accent@;
   selection-color: @on_accent@; alternate-background-color: @panel@; }
+QTreeView::item, QListView::item { padding: 2px 0; }
 QHeaderView::section { background: @raised@; border: none; padding: 4px 6px; color: @text@; }
 QTabBar { qproperty-drawBase: 0; }
 QTabBar::tab { background: @window@; color: @dim@; padding: 6px 12px; border: none; }

@@ -26,9 +26,7 @@ def source_texts() -> list[str]:
     texts: dict[str, None] = {}
     for path in sorted((ROOT / "genmojo_studio").rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Call) and _name(node.func) == "tr" and node.args:
-                if isinstance(node.args[0], ast.Constant) and isinstance(node.args[0].value, str):
-                    texts[node.args[0].value] = None
+            texts |= dict.fromkeys(_argument(node))
     sys.path.insert(0, str(ROOT))
     from genmojo_studio.app import all_actions
 
@@ -96,6 +94,14 @@ def _translations(path: Path) -> dict[str, str]:
         if source and translation is not None and translation.text and translation.get("type") != "unfinished":
             found[source] = translation.text
     return found
+
+
+def _argument(node: ast.AST) -> list[str]:
+    """The text of a call tr("..."), if the node is one."""
+    if not isinstance(node, ast.Call) or _name(node.func) != "tr" or not node.args:
+        return []
+    first = node.args[0]
+    return [first.value] if isinstance(first, ast.Constant) and isinstance(first.value, str) else []
 
 
 def _name(function: ast.expr) -> str:

@@ -206,9 +206,16 @@ class ComparePanel(QWidget):
         for name in dict.fromkeys((*a, *b)):
             one, two = a.get(name, math.nan), b.get(name, math.nan)
             apart = two - one
-            texts = ["" if math.isnan(value) else f"{value:.4g}" for value in (one, two)]
-            self.table.addTopLevelItem(QTreeWidgetItem([name, *texts, "" if math.isnan(apart) else f"{apart:+.4g}"]))
+            texts = [_figure(value, "") for value in (one, two)]
+            self.table.addTopLevelItem(QTreeWidgetItem([name, *texts, _figure(apart, "+")]))
         self.table.resizeColumnToContents(0)
+
+
+def _figure(value: float, sign: str) -> str:
+    """A number for the table: counts whole, everything else to three places; nothing for NaN."""
+    if math.isnan(value):
+        return ""
+    return f"{value:{sign}.0f}" if value == round(value) else f"{value:{sign}.3f}"
 
 
 def _draw_both(request: FrameRequest, other: SceneSnapshot, size: tuple[int, int], clip: Clip | None) -> Pair:

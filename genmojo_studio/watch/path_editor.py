@@ -10,6 +10,7 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QDialog,
     QFileDialog,
+    QHeaderView,
     QPushButton,
     QSpinBox,
     QTableWidget,
@@ -48,6 +49,7 @@ class PathEditor(QDialog):
         self.table = QTableWidget(0, len(_FIELDS))
         self.table.setHorizontalHeaderLabels([tr("Arrives (s)"), tr("Frame"), tr("Field of view (°)"), tr("Stays (s)")])
         self.table.setSelectionBehavior(QTableWidget.SelectionBehavior.SelectRows)
+        self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
         self.closed = QCheckBox(tr("Back to the first key"))
         self.mode = mode_box()
         self.short_side = QSpinBox()

@@ -124,7 +124,9 @@ class PickingPanel(QWidget):
         what = str(self.what.currentData())
         for i, (name, values) in enumerate(self.trajectory.curves(what).items()):
             colour = ("#e0524d", "#3fa45b", "#4f8fe0")[i] if what == "colour" else SERIES[i]
-            self.plot.plot(np.arange(1, len(values) + 1), values, name=name, pen=pg.mkPen(colour, width=2))
+            symbol = "o" if len(values) == 1 else None
+            frames = np.arange(1, len(values) + 1)
+            self.plot.plot(frames, values, name=name, pen=pg.mkPen(colour, width=2), symbol=symbol, symbolBrush=colour)
 
     def _show_frame(self) -> None:
         self._here.setValue(self._state.frame + 1)

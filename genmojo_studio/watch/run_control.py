@@ -43,6 +43,7 @@ class RunControl(QObject):
         self.stop_below: float | None = None
         self.phase = ""
         self.view_cost = 0.0
+        self.parameters: dict[str, float] = {}  # as they were changed while the run goes on
         self._rule = StopRule()
         self.client.state_changed.connect(self._state)
         self.client.event_received.connect(self._event)
@@ -122,6 +123,7 @@ class RunControl(QObject):
 
     def _begin(self) -> None:
         self.log = RunLog()
+        self.parameters = {}
         self._rule = StopRule()
         self.phase = ""
         self.log_grew.emit()
@@ -142,6 +144,8 @@ class RunControl(QObject):
     def _event(self, event: dict[str, Any]) -> None:
         points = len(self.log.accuracy)
         self.log.add(event)
+        if event.get("event") == "ParameterChanged":
+            self.parameters[str(event["name"])] = float(event["new"])
         self.log_grew.emit()
         if self.stop_below is not None and len(self.log.accuracy) > points and self.state == "running":
             curve = [(at, value) for at, _, value in self.log.accuracy]

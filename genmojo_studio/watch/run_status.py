@@ -24,6 +24,7 @@ from genmojo_studio.state import AppState
 from genmojo_studio.translate import tr
 from genmojo_studio.watch.controls import dim, number, row, set_role
 from genmojo_studio.watch.forecast import spoken
+from genmojo_studio.watch.parameter_row import ParameterRow
 from genmojo_studio.watch.run_control import RunControl
 from genmojo_studio.worker.death import DeathReport
 
@@ -72,6 +73,8 @@ class RunStatus(QWidget):
         layout.addWidget(self.figures)
         layout.addLayout(self.stages)
         layout.addLayout(row(self.stop_rule, self.stop_least))
+        layout.addWidget(dim(tr("Change while it runs")))
+        layout.addWidget(ParameterRow(control))
         layout.addWidget(self.warnings)
         layout.addStretch()
         self._timer = QTimer(self)

@@ -149,7 +149,6 @@ class TakeAway(QObject):
         dialog.blockSignals(True)
         dialog.close()
         dialog.deleteLater()
-        job.deleteLater()
         if done is not None:
             self.last = Path(done["path"])
             self._session.busy.emit("")

@@ -8,7 +8,9 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QFileDialog,
+    QHBoxLayout,
     QLabel,
+    QLayout,
     QPushButton,
     QTreeWidget,
     QTreeWidgetItem,
@@ -20,6 +22,7 @@ from genmojo_core.errors import GenmojoError
 from genmojo_core.store.scene_file import BakedScene
 from genmojo_core.tracks.model import PointTracks
 from genmojo_studio import notify
+from genmojo_studio.background import Tasks
 from genmojo_studio.state import AppState
 from genmojo_studio.theme import SERIES
 from genmojo_studio.translate import tr
@@ -40,13 +43,13 @@ class TracksPanel(QWidget):
         self._state = state
         self.sets = TrackSets()
         self._apart: Apart | None = None
+        self._scene: BakedScene | None = None
+        self._tasks = Tasks(self)
         self.list = QTreeWidget()
         self.list.setHeaderLabels([tr("Tracks"), tr("Origin"), tr("Points")])
         self.list.setRootIsDecorated(False)
-        self.list.setMaximumHeight(110)
         self.which, self.reference = QComboBox(), QComboBox()
         self.plot = pg.PlotWidget()
-        self.plot.setMinimumHeight(110)
         self.plot.setLabel("bottom", tr("frame"))
         self.plot.setLabel("left", tr("px at 256"))
         self.plot.hideButtons()
@@ -61,16 +64,17 @@ class TracksPanel(QWidget):
         self.worst.setHeaderLabels([tr("Track"), tr("Worst frame"), tr("Distance")])
         self.worst.setRootIsDecorated(False)
         bring, jump = QPushButton(tr("Import…")), QPushButton(tr("Jump to worst"))
+        self.follow = QPushButton(tr("Follow through the scene"))
+        self.follow.setToolTip(tr("Carries the points of the other set through the 4D scene, hidden or not"))
         bring.clicked.connect(self._ask_import)
         jump.clicked.connect(self.jump_to_worst)
-        layout = QVBoxLayout(self)
+        self.follow.clicked.connect(self.follow_points)
+        layout = QHBoxLayout(self)
         layout.setContentsMargins(8, 8, 8, 8)
-        layout.addWidget(self.list)
-        layout.addLayout(row(bring, jump))
-        layout.addLayout(row(self.which, QLabel(tr("against")), self.reference))
-        layout.addWidget(self.plot)
-        layout.addWidget(self.said)
-        layout.addWidget(self.worst, 1)
+        layout.addLayout(_column(self.list, row(bring, self.follow)), 3)
+        choice = row(self.which, QLabel(tr("against")), self.reference, self.said)
+        layout.addLayout(_column(choice, self.plot), 5)
+        layout.addLayout(_column(self.worst, row(jump)), 3)
         self.list.itemChanged.connect(self._ticked)
         for box in (self.which, self.reference):
             box.activated.connect(self._compare)
@@ -87,7 +91,9 @@ class TracksPanel(QWidget):
         return (str(self.which.currentData()), chosen) if chosen is not None and self.which.count() else None
 
     def show_scene(self, scene: BakedScene | None) -> None:
-        """Takes the predicted tracks of a scene file."""
+        """Takes the predicted tracks of a scene file; None for a run that goes on."""
+        self._scene = scene
+        self.follow.setEnabled(scene is not None)
         self.sets.drop("predicted")
         if scene is not None and scene.predicted is not None:
             self.sets.put(TrackSet(tr("Scene"), "predicted", scene.predicted))
@@ -98,10 +104,30 @@ class TracksPanel(QWidget):
         self.sets.put(TrackSet(name, kind, tracks))
         self._refill()
 
+    def follow_points(self) -> None:
+        """Where the scene carries the points of the reference set: a set "Scene" to compare with it."""
+        scene, reference = self._scene, self.sets.sets.get(str(self.reference.currentData()))
+        if scene is None or reference is None:
+            return
+        self.follow.setEnabled(False)
+        self._tasks.run(lambda: _carried(scene, reference.tracks), self._take_followed, self._following_failed)
+
+    def close_tasks(self) -> None:
+        """No more results."""
+        self._tasks.close()
+
     def jump_to_worst(self) -> None:
         """The track and frame farthest from the reference."""
         if self.worst.topLevelItemCount():
             self._jump(self.worst.topLevelItem(0))
+
+    def _take_followed(self, found: PointTracks) -> None:
+        self.follow.setEnabled(True)
+        self.add(tr("Scene"), "predicted", found)
+
+    def _following_failed(self, error: BaseException) -> None:
+        self.follow.setEnabled(True)
+        notify.tell(error, self)
 
     def _follow_clip(self) -> None:
         self.sets.drop("annotated", "imported")
@@ -186,3 +212,22 @@ class TracksPanel(QWidget):
 
     def _dress(self) -> None:
         plots.dress(self.plot, self._state.theme)
+
+
+def _column(*parts: QWidget | QLayout) -> QVBoxLayout:
+    column = QVBoxLayout()
+    for part in parts:
+        column.addWidget(part) if isinstance(part, QWidget) else column.addLayout(part)
+    return column
+
+
+def _carried(scene: BakedScene, asked: PointTracks) -> PointTracks:
+    """Every track of a set from the first frame where it is seen, carried by the scene; in the same order."""
+    from genmojo_core.trackers import scene as tracker
+
+    seen = asked.visible[:, : len(scene)]
+    rows = np.flatnonzero(seen.any(axis=1))
+    t = seen[rows].argmax(axis=1)
+    size = scene.cameras.size
+    at = asked.resized(*size).xy[rows, t]
+    return tracker.track(scene, t, np.clip(at, 0.5, np.array(size) - 0.5))

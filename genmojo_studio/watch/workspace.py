@@ -109,6 +109,7 @@ class WatchWorkspace(QMainWindow):
         self.take_away.close()
         self.center.comparison.close()
         self.picking.close_tasks()
+        self.tracks.close_tasks()
         self.compare.close_tasks()
         self.view.close()
         self.tasks.close()

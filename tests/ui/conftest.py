@@ -63,7 +63,7 @@ def window(qapp, qtbot):
     from genmojo_studio import app
     from genmojo_studio.settings import Settings
 
-    settings = Settings("GenMOJO-tests", "ui")
+    settings = Settings()
     made = app.make_window(qapp, settings)
     qtbot.addWidget(made)
     made.resize(1400, 850)

@@ -1,0 +1,166 @@
+"""The window as a person meets it: start page, menus, palette, themes, dialogs, opening and closing."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
+from PySide6.QtGui import QDropEvent
+from PySide6.QtTest import QTest
+
+from genmojo_core.errors import GenmojoError
+from genmojo_studio import notify
+from genmojo_studio.palette import Palette
+from genmojo_studio.shortcuts import KeyEditor, KeySheet
+
+_ROOT = Path(__file__).resolve().parents[2]
+
+_STARTED = """
+import sys, time
+from genmojo_studio import app
+from genmojo_studio.settings import Settings
+begun = time.process_time()
+application = app.make_application()
+window = app.make_window(application, Settings())
+window.show()
+application.processEvents()
+loaded = [name for name in ("torch", "torchvision", "genmojo_core.optimise.run", "genmojo_core.scene.gaussians")
+          if name in sys.modules]
+window.show_workspace("watch")
+application.processEvents()
+loaded += [name for name in ("torch", "torchvision") if name in sys.modules]
+print(loaded, round(time.process_time() - begun, 2))
+"""
+
+
+def test_the_ui_process_never_loads_torch_and_starts_quickly(qapp):
+    environment = {**os.environ, "PYTHONPATH": str(_ROOT)}
+    run = subprocess.run([sys.executable, "-c", _STARTED], env=environment, capture_output=True, text=True, timeout=120)
+    assert run.returncode == 0, run.stderr
+    loaded, seconds = run.stdout.strip().rsplit(" ", 1)
+    assert loaded == "[]"
+    assert float(seconds) < 4.0  # processor seconds for window and workspace; a shared machine is slower on the clock
+
+
+def test_the_start_page_offers_the_demo_and_the_menus_only_what_works(window):
+    assert window.welcome.demo_button.isVisible()
+    titles = [a.text() for a in window.menuBar().actions() if a.isVisible()]
+    assert titles == ["File", "Window", "Help"]
+    window.show_workspace("watch")
+    titles = [a.text() for a in window.menuBar().actions() if a.isVisible()]
+    assert {"View", "Time", "Run", "Take away"} <= set(titles)
+
+
+def test_every_action_of_the_workspace_on_show_does_something(window):
+    window.show_workspace("watch")
+    unbound = [a.id for a in window.table if a.workspace in ("", "watch") and not window.table.is_bound(a.id)]
+    assert unbound == []
+
+
+def test_a_key_works_in_its_workspace_and_nowhere_else(window, qtbot):
+    window.show_workspace("watch")
+    window.activateWindow()
+    window.state.set(frame_count=10)
+    watch = window.workspaces["watch"]
+    watch.setFocus()
+    qtbot.waitUntil(window.isActiveWindow, timeout=3000)
+    QTest.keyClick(watch, Qt.Key.Key_Right)
+    assert window.state.frame == 1
+    window.show_workspace("")
+    QTest.keyClick(window, Qt.Key.Key_Right)
+    assert window.state.frame == 1
+
+
+def test_the_palette_does_what_is_typed(window):
+    window.show_workspace("watch")
+    palette = Palette(window.table, "watch", window)
+    palette.line.setText("canonical motion")
+    palette.line.setText("without motion")
+    QTest.keyClick(palette.line, Qt.Key.Key_Return)
+    assert palette.chosen == "view.canonical"
+
+
+def test_a_dropped_file_that_is_none_of_ours_is_told_in_one_sentence(window, told, tmp_path):
+    strange = tmp_path / "notes.docx"
+    strange.write_text("x")
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(strange))])
+    copy, left, none = Qt.DropAction.CopyAction, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+    window.dropEvent(QDropEvent(QPointF(5, 5), copy, data, left, none))
+    assert len(told) == 1 and "notes.docx" in told[0][1] and told[0][1].count("\n") == 0
+
+
+def test_our_own_fault_is_told_as_ours_and_a_users_as_its_sentence(told):
+    notify.tell(GenmojoError("io", "cannot be read", "clip.mp4", "check the file"))
+    notify.tell(ValueError("oops"))
+    assert told[0][1] == "clip.mp4: cannot be read; check the file."
+    assert "ValueError: oops" in told[1][1]
+
+
+def test_a_clip_opens_in_both_workspaces_and_shares_its_frame(window, qtbot, tmp_path):
+    from genmojo_core.clip import synthetic, synthetic_files
+
+    clip, truth = synthetic.generate("crossing-shapes")
+    synthetic_files.write(clip, truth, tmp_path / "clip")
+    window.show_workspace("watch")
+    window.open_path(tmp_path / "clip")
+    qtbot.waitUntil(lambda: window.state.clip is not None, timeout=20_000)
+    assert window.state.frame_count == len(clip) and window.workspace == "watch"
+    window.state.set(frame=7)
+    watch = window.workspaces["watch"]
+    assert (watch.center.comparison.input == window.state.clip.frames[7]).all()
+    assert window.windowTitle().startswith("clip")
+    assert [path.name for path in window.settings.recent()][:1] == ["clip"]
+
+
+def test_the_theme_changes_at_once_and_is_remembered(window):
+    before = window.palette().window().color()
+    window.table.trigger("window.theme")
+    assert window.palette().window().color() != before
+    assert window.settings.text("theme") == window.state.theme
+    window.table.trigger("window.theme")
+
+
+def test_the_layout_comes_back(window):
+    window.show_workspace("watch")
+    watch = window.workspaces["watch"]
+    watch.docks["tracks"].setFloating(True)
+    watch.save_layout()
+    watch.docks["tracks"].setFloating(False)
+    watch.restore_layout()
+    assert watch.docks["tracks"].isFloating()
+    window.table.trigger("window.reset")
+    assert not watch.docks["tracks"].isFloating()
+
+
+def test_a_changed_key_works_and_its_conflict_is_named(window):
+    editor = KeyEditor(window.table, window.settings, window)
+    window.table.set_keys("run.start", ("F11",))
+    editor._refill()
+    assert "F11" in editor.notice.text()
+    window.table.set_keys("run.start", None)
+    editor._refill()
+    assert editor.notice.text() == ""
+
+
+def test_the_sheet_lists_every_key_of_the_workspace(window):
+    window.show_workspace("watch")
+    sheet = KeySheet(window.table, "watch", window)
+    sheet.line.setText("turntable")
+    shown = [b for i in range(sheet.list.topLevelItemCount()) if not (b := sheet.list.topLevelItem(i)).isHidden()]
+    assert len(shown) == 1
+
+
+@pytest.mark.parametrize("count", [2000])
+def test_references_to_none_stay_over_many_repaints(window, qapp, count):
+    """Some versions of PySide6 drop a reference to None with every repaint until Python dies."""
+    window.show_workspace("watch")
+    watch = window.workspaces["watch"]
+    before = sys.getrefcount(None)
+    for i in range(count):
+        watch.center.input_picture.update()
+        if i % 10 == 0:
+            qapp.processEvents()
+    assert sys.getrefcount(None) > before - 200
