@@ -73,6 +73,7 @@ class RunConfig:
     device: str = "auto"
     prior: str = "none"  # embedded, none, zero123:DIR or zeronvs:DIR
     prior_mode: Literal["sds", "x0", "pseudo"] = "pseudo"  # how it is followed: sds, x0 or pseudo (priors/sds.py)
+    prior_scope: Literal["object", "scene"] = "object"  # what the prior is shown: one object, or all as one
     prior_views: int = 4  # views per object and step
     prior_objects: int = 1  # objects per step that are shown to the prior; 0 = all
     method: str = "genmojo"
@@ -138,6 +139,7 @@ _RANGES: dict[str, tuple[float, float]] = {
     "seed": (0, 2**31 - 1),
 }
 PRIORS = ("none", "embedded", "zero123:DIR", "zeronvs:DIR")
+METHODS = ("genmojo", "dreamscene4d", "dreamgaussian4d", "shape-of-motion")  # optimise/methods.py
 PRIOR_MODES = ("sds", "x0", "pseudo")
 
 
@@ -156,10 +158,12 @@ def _faults(config: RunConfig) -> list[str]:
     kind, colon, folder = config.prior.partition(":")
     if kind not in [name.partition(":")[0] for name in PRIORS] or bool(folder) != (kind in ("zero123", "zeronvs")):
         faults.append(f"there is no prior '{config.prior}', only {', '.join(PRIORS)}")
+    if config.prior_scope not in ("object", "scene"):
+        faults.append(f"there is no prior scope '{config.prior_scope}', only object, scene")
     if config.prior_mode not in PRIOR_MODES:
         faults.append(f"there is no prior mode '{config.prior_mode}', only {', '.join(PRIOR_MODES)}")
-    if config.method != "genmojo":
-        faults.append(f"there is no method '{config.method}' in this version, only genmojo")
+    if config.method not in METHODS:
+        faults.append(f"there is no method '{config.method}', only {', '.join(METHODS)}")
     known = ("depth", "cameras", "flow", "background", "tracks")
     faults += [f"cannot ignore '{name}', only {', '.join(known)}" for name in config.ignore if name not in known]
     return faults

@@ -86,13 +86,17 @@ def add_config_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--device", default="auto", help="auto, cpu or cuda")
     parser.add_argument("--prior", metavar="embedded|none|zero123:DIR",
                         help="what draws sides that no frame shows (also zeronvs:DIR)")  # fmt: skip
+    parser.add_argument("--method", metavar="NAME", help="genmojo, or what it is compared with: dreamscene4d, "
+                        "dreamgaussian4d, shape-of-motion")  # fmt: skip
     parser.add_argument("--prior-mode", metavar="pseudo|x0|sds", help="how the prior is followed")
 
 
 def config_changes(args: argparse.Namespace) -> dict[str, Any]:
     """What the options change in a preset."""
     changes: dict[str, Any] = {"seed": args.seed, "device": args.device, "ignore": args.ignore}
-    changes |= {name: getattr(args, name) for name in ("prior", "prior_mode") if getattr(args, name) is not None}
+    changes |= {
+        name: getattr(args, name) for name in ("prior", "prior_mode", "method") if getattr(args, name) is not None
+    }
     if args.size is not None:
         changes["short_side"] = args.size
     if args.budget is not None:

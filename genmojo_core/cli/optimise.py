@@ -143,6 +143,7 @@ def _prepare(args: argparse.Namespace, config: RunConfig) -> tuple[Clip, EffectP
     from genmojo_core.clip import folders
     from genmojo_core.effects import decide
     from genmojo_core.estimate.complete import complete
+    from genmojo_core.optimise import methods
 
     overrides = {} if args.effects == "auto" else decide.parse_overrides(args.effects)
     external = models.models_of(args)
@@ -152,6 +153,7 @@ def _prepare(args: argparse.Namespace, config: RunConfig) -> tuple[Clip, EffectP
         tell(1.0)
     with progress("looking at the clip") as tell:
         clip = complete(clip, boxes=_boxes(args), progress=lambda _, share: tell(share), models=external)
+    clip, overrides = methods.prepared(clip, config.method, overrides)
     return clip, decide.plan(clip, config, overrides)
 
 

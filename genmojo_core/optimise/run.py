@@ -51,6 +51,7 @@ from genmojo_core.optimise.schedule import (
     stages,
     start_rate,
 )
+from genmojo_core.optimise.separate import SeparateObjective
 from genmojo_core.optimise.targets import Targets
 from genmojo_core.optimise.unseen import Moment, UnseenViews
 from genmojo_core.priors.choose import choose as choose_prior
@@ -188,8 +189,10 @@ class Run:
         self.scene = lifted.scene
         self.reference = sorted(o.ref_frame for o in self.scene.objects)[len(self.scene.objects) // 2]
         self.targets = Targets(self.clip, lifted.rows, self.config.held_out_share, self.config.seed)
-        self.objective = Objective(self.scene, self.targets, self.plan, self.config.weights,
-                                   choose(self.config.device), tracks, self.config.neighbours)  # fmt: skip
+        joint = self.plan.get("joint_occlusion")
+        kind = SeparateObjective if joint.overridden and not joint.on else Objective
+        self.objective = kind(self.scene, self.targets, self.plan, self.config.weights, choose(self.config.device),
+                              tracks, self.config.neighbours)  # fmt: skip
         self.generator = torch.Generator().manual_seed(self.config.seed)
 
     def _ask_prior(self, lifted: Lifted, motions: Sequence[Moves]) -> Iterator[Event]:

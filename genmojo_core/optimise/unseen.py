@@ -35,6 +35,7 @@ from genmojo_core.scene.initialise import Points, surface_axes
 from genmojo_core.scene.scene4d import ObjectModel
 
 ELEVATION = 30.0  # degrees around the reference's
+TRUSTED = 0.3  # confidence of a frame's pose from which it may contradict the prior
 FRAMES = 12  # references per object at most, spread over the clip
 POINT_SHARE = 0.25  # of the allowed Gaussians, spent on unseen sides at first
 LAST_WEIGHT = 0.1  # of the loss, reached at the end of the run's last third
@@ -45,10 +46,16 @@ SIZES = ((0.3, 2), (0.6, 3), (1.0, 4))  # until this share of the run: render si
 
 @dataclass
 class Subject:
-    """One object as the prior sees it: its references by frame, conditions made on demand, why frames are off."""
+    """What the prior sees at once: one object, or all of them.
 
-    model: ObjectModel
-    clip_index: int
+    models: of the objects. clip_indices: theirs in the clip. name: for messages. home: the frame it is best seen in.
+    references: by frame; conditions: made on demand; off: why the other frames are none.
+    """
+
+    models: list[ObjectModel]
+    clip_indices: tuple[int, ...]
+    name: str
+    home: int
     references: dict[int, PlacedReference]
     off: dict[int, str]
     conditions: dict[int, Any] = field(default_factory=dict)
@@ -76,22 +83,25 @@ class UnseenViews:
     ) -> None:  # fmt: skip
         self.prior, self.clip, self.config, self.splat = prior, clip, config, splat
         self.scene = lifted.scene
-        self.subjects = [_subject(clip, lifted, k, row) for k, row in lifted.rows.items()]
+        everything = "scene" in (config.prior_scope, prior.scope)
+        groups = [tuple(lifted.rows)] if everything else [(k,) for k in lifted.rows]
+        self.subjects = [_subject(clip, lifted, group) for group in groups]
         self.seen: list[tuple[float, float, int]] = []
         self.best, self.share = 0.0, 0.0
-        self.added = self._complete(prior, lifted, motions) if isinstance(prior, EmbeddedPrior) else 0
+        if isinstance(prior, EmbeddedPrior) and not everything:
+            for one in self.subjects:
+                self._complete(prior, one, motions[one.clip_indices[0]], lifted)
 
     def notes(self) -> list[str]:
         """One sentence per object the prior does not speak for, or only in some frames."""
         sentences = []
         for one in self.subjects:
-            name = one.model.name
             if not one.references:
-                reason = next(iter(one.off.values()), "no frame shows it")
-                sentences.append(f"the prior is off for object {name}: {reason}")
+                reason = "; ".join(dict.fromkeys(one.off.values()))
+                sentences.append(f"the prior is off for {one.name}: {reason}")
             elif one.off:
                 frames = ", ".join(f"{t} ({reason})" for t, reason in sorted(one.off.items()))
-                sentences.append(f"the prior is off for object {name} in frames {frames}")
+                sentences.append(f"the prior is off for {one.name} in frames {frames}")
         return sentences
 
     def add_to(self, outcome: Outcome, moment: Moment, weight: float, generator: torch.Generator) -> None:
@@ -127,31 +137,24 @@ class UnseenViews:
         self, one: Subject, moment: Moment, rng: np.random.Generator, generator: torch.Generator
     ) -> Tensor:
         frames = sorted(one.references)
-        t = int(rng.choice(frames)) if moment.deform else min(frames, key=lambda f: abs(f - one.model.ref_frame))
+        t = int(rng.choice(frames)) if moment.deform else min(frames, key=lambda f: abs(f - one.home))
         placed = one.references[t]
         if t not in one.conditions:
             one.conditions[t] = self.prior.encode(placed.reference)
         views = draw_views(rng, self.config.prior_views)
         self.seen += [(float(e), float(a), t) for e, a in zip(views.elevation, views.azimuth, strict=True)]
-        pictures = self._render(one.model, placed, t, views, moment)
+        pictures = self._render(one.models, placed, t, views, moment)
         level = float(rng.uniform(*levels(moment.share)))
         mode = self.config.prior_mode
         said = distil(self.prior, pictures, one.conditions[t], views, level, mode, generator)
         return said.loss * placed.visible * (2.0 / said.gradient.numel())
 
     def _render(
-        self, model: ObjectModel, placed: PlacedReference, t: int, views: ViewOffsets, moment: Moment
+        self, models: list[ObjectModel], placed: PlacedReference, t: int, views: ViewOffsets, moment: Moment
     ) -> Tensor:  # (B, 4, S, S)
-        """The object alone from the prior's cameras, premultiplied RGBA."""
-        state = model.states([t], moment.deform)[0]
-        scale, quat, origin = _object_to_prior(model, placed, t)
-        means = scale * safemath.rotate(quat, state.local_means) + origin
-        quats = safemath.quaternion_multiply(quat.expand_as(state.local_quats), state.local_quats)
-        world = float(model.placement.similarity(t)[0].detach())
-        scales = state.scales * (scale / world)
-        gain = self.scene.gain
-        rgb = state.rgb if gain is None else state.rgb * gain(t).detach()
-        splats = Splats(means, quats, scales, model.gaussians.opacities(), rgb)
+        """The objects alone from the prior's cameras, premultiplied RGBA."""
+        parts = [self._splats(model, placed, t, moment.deform) for model in models]
+        splats = Splats(*(torch.cat(columns) for columns in zip(*parts, strict=True)))
         side = self.prior.resolution * render_factor(moment.share)
         distance = self.prior.distance(placed.reference)
         focal = side / 2 * distance / HALF_EXTENT
@@ -161,38 +164,40 @@ class UnseenViews:
             pictures.append(torch.cat([drawn.features, drawn.alpha[..., None]], dim=-1).movedim(-1, 0))
         return torch.stack(pictures)
 
-    def _complete(self, prior: EmbeddedPrior, lifted: Lifted, motions: Sequence[Moves]) -> int:
-        """Add Gaussians where the volume has surface that no frame shows; returns how many."""
-        added = 0
-        for one in self.subjects:
-            row = lifted.rows[one.clip_index]
-            if one.references:
-                added += self._complete_object(prior, one, motions[one.clip_index], lifted.frames_of[row])
-        return added
+    def _splats(self, model: ObjectModel, placed: PlacedReference, t: int, deform: bool) -> tuple[Tensor, ...]:
+        """Means, quats, scales, opacities and colours of one object at frame t in the prior's space."""
+        state = model.states([t], deform)[0]
+        scale, quat, origin = _object_to_prior(model, placed, t)
+        means = scale * safemath.rotate(quat, state.local_means) + origin
+        quats = safemath.quaternion_multiply(quat.expand_as(state.local_quats), state.local_quats)
+        bent = state.deformation
+        log_scales = model.gaussians.log_scales if bent is None else model.gaussians.log_scales + bent.d_log_scales
+        scales = scale * safemath.exp_scale(log_scales)
+        return means, quats, scales, model.gaussians.opacities(), state.rgb * self._light(t)
 
-    def _complete_object(
-        self, prior: EmbeddedPrior, one: Subject, motion: Moves, frame: tuple[np.ndarray, float]
-    ) -> int:
-        t = min(one.references, key=lambda f: abs(f - motion.ref_frame))
-        one.conditions[t] = prior.encode(one.references[t].reference)
-        room = self.config.gaussians_per_object - len(one.model.gaussians)
+    def _complete(self, prior: EmbeddedPrior, one: Subject, motion: Moves, lifted: Lifted) -> None:
+        """Add Gaussians where the volume has surface that no frame shows and none contradicts."""
+        gaussians = one.models[0].gaussians
+        room = self.config.gaussians_per_object - len(gaussians)
         count = min(room, int(POINT_SHARE * self.config.gaussians_per_object))
-        if count < 1:
-            return 0
+        if count < 1 or not one.references:
+            return
+        k = one.clip_indices[0]
+        t = min(one.references, key=lambda f: abs(f - one.home))
+        one.conditions[t] = prior.encode(one.references[t].reference)
         points = in_world(surface_points(prior, one.conditions[t], 4 * count), one.references[t])
         points = points.moved(np.linalg.inv(motion.pose[t]))
         if motion.bend is not None:
             points = replace(points, xyz=motion.bend.undone(t, points.xyz))
         keep = np.ones(len(points), bool)
-        for f in np.flatnonzero(np.asarray(motion.confidence) >= 0.3):
+        for f in np.flatnonzero(np.asarray(motion.confidence) >= TRUSTED):
             xyz = points.xyz if motion.bend is None else motion.bend.at(int(f), points.xyz)
             pose = motion.pose[f]
-            keep &= unseen_only(xyz @ pose[:3, :3].T + pose[:3, 3], self.clip, one.clip_index, int(f))
+            keep &= unseen_only(xyz @ pose[:3, :3].T + pose[:3, 3], self.clip, k, int(f))
         rows = np.flatnonzero(keep)
         if len(rows) > count:
             rows = np.random.default_rng(self.config.seed).permutation(rows)[:count]
-        _add(one.model.gaussians, selected(points, rows), frame, self._light(motion.ref_frame))
-        return len(rows)
+        _add(gaussians, selected(points, rows), lifted.frames_of[lifted.rows[k]], self._light(one.home))
 
     def _light(self, t: int) -> Tensor | float:
         return 1.0 if self.scene.gain is None else self.scene.gain(t).detach()
@@ -220,21 +225,22 @@ def render_factor(share: float) -> int:
     return next(factor for until, factor in SIZES if share <= until)
 
 
-def _subject(clip: Clip, lifted: Lifted, k: int, row: int) -> Subject:
-    """References of one object: at most FRAMES frames, its canonical one among them."""
-    model = lifted.scene.objects[row]
-    wanted = {int(t) for t in np.linspace(0, len(clip) - 1, FRAMES)} | {model.ref_frame}
+def _subject(clip: Clip, lifted: Lifted, group: tuple[int, ...]) -> Subject:
+    """References of an object or of all: at most FRAMES frames, the canonical one among them."""
+    models = [lifted.scene.objects[lifted.rows[k]] for k in group]
+    home = sorted(model.ref_frame for model in models)[len(models) // 2]
     references: dict[int, PlacedReference] = {}
     off: dict[int, str] = {}
-    for t in sorted(wanted):
-        found = reference_of(clip, k, t)
+    for t in sorted({int(t) for t in np.linspace(0, len(clip) - 1, FRAMES)} | {home}):
+        found = reference_of(clip, group, t)
         if isinstance(found, str):
             off[t] = found
         elif found.visible < LEAST_VISIBLE:
             off[t] = f"only {100 * found.visible:.0f} % of the object shows"
         else:
             references[t] = found
-    return Subject(model, k, references, off)
+    name = models[0].name if len(models) == 1 else "all objects"
+    return Subject(models, group, name, home, references, off)
 
 
 def _object_to_prior(model: ObjectModel, placed: PlacedReference, t: int) -> tuple[float, Tensor, Tensor]:

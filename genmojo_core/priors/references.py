@@ -41,14 +41,14 @@ class PlacedReference:
     visible: float
 
 
-def reference_of(clip: Clip, k: int, t: int, depth: np.ndarray | None = None) -> PlacedReference | str:
-    """The reference of object k in frame t, or one plain sentence why the frame cannot be one.
+def reference_of(clip: Clip, objects: tuple[int, ...], t: int) -> PlacedReference | str:
+    """The reference of one object, or of several as one, in frame t, or one plain sentence why there is none.
 
     Args:
-        clip: complete. depth: (H, W) in place of the clip's.
+        clip: complete. objects: their indices 0..K-1.
     """
-    mask = clip.object_mask(k)[t]
-    depth = clip.depth.value[t] if depth is None else depth
+    mask = np.isin(clip.masks.value[t], np.array(objects) + 1) & clip.masks.valid[t]
+    depth = clip.depth.value[t]
     usable = mask & clip.depth.valid[t] & (depth > 0)
     reason = _unfit(mask, usable)
     if reason:
@@ -65,7 +65,7 @@ def reference_of(clip: Clip, k: int, t: int, depth: np.ndarray | None = None) ->
     unit = near / (distance - FRONT)
     relative = cv2.remap((along / unit - distance).astype(np.float32), x, y, cv2.INTER_NEAREST)
     known = cv2.remap(usable.astype(np.float32), x, y, cv2.INTER_NEAREST)
-    hidden = cv2.remap(_hiders(clip, k, t, along, near).astype(np.float32), x, y, cv2.INTER_NEAREST)
+    hidden = cv2.remap(_hiders(clip, mask, t, along < near).astype(np.float32), x, y, cv2.INTER_NEAREST)
     up = turn @ view.world_to_camera[:3, :3] @ clip.world_up
     up /= max(float(np.linalg.norm(up)), 1e-9)
     picture = np.concatenate([np.moveaxis(rgb * (inside > 0.02)[..., None], -1, 0), inside[None]])
@@ -73,7 +73,8 @@ def reference_of(clip: Clip, k: int, t: int, depth: np.ndarray | None = None) ->
         _tensor(picture), _tensor(hidden), _tensor(np.clip(relative, -1.5, 1.5) * known), _tensor(known),
         math.degrees(math.asin(float(np.clip(-up[2], -1, 1)))), distance, (float(up[0]), float(up[1]), float(up[2])),
     )  # fmt: skip
-    return PlacedReference(reference, _to_world(view, turn, unit, distance), unit, visible_share(clip, k, t))
+    visible = visible_share(clip, objects[0], t) if len(objects) == 1 else 1.0
+    return PlacedReference(reference, _to_world(view, turn, unit, distance), unit, visible)
 
 
 def visible_share(clip: Clip, k: int, t: int) -> float:
@@ -136,10 +137,10 @@ def _unfit(mask: np.ndarray, usable: np.ndarray) -> str:
     return ""
 
 
-def _hiders(clip: Clip, k: int, t: int, along: np.ndarray, near: float) -> np.ndarray:
-    """(H, W) bool: pixels of other objects nearer than object k, and pixels nobody labelled."""
-    other = (clip.masks.value[t] > 0) & (clip.masks.value[t] != k + 1)
-    return (other & (along < near) & clip.depth.valid[t]) | ~clip.masks.valid[t]
+def _hiders(clip: Clip, mask: np.ndarray, t: int, nearer: np.ndarray) -> np.ndarray:
+    """(H, W) bool: pixels of other objects that are nearer, and pixels nobody labelled."""
+    other = (clip.masks.value[t] > 0) & ~mask
+    return (other & nearer & clip.depth.valid[t]) | ~clip.masks.valid[t]
 
 
 def _depth_along(view: View, turn: np.ndarray, depth: np.ndarray) -> np.ndarray:

@@ -34,7 +34,9 @@ def test_a_ball_has_its_size_and_depth():
 )
 def test_views_turn_by_the_convention(view, centre, side):
     """From the right, what was in front lies to the left; from above, what was on top is still in the upper half."""
-    alpha = draw(ball(np.array(centre), 0.15), view_matrices(np.array([view], float), 0.0, 5.0), 5.0, 32).rgba[0, ..., 3]
+    alpha = draw(ball(np.array(centre), 0.15), view_matrices(np.array([view], float), 0.0, 5.0), 5.0, 32).rgba[
+        0, ..., 3
+    ]
     halves = {"left": alpha[:, :16], "right": alpha[:, 16:], "top": alpha[:16]}
     assert halves[side].sum() > 0.9 * alpha.sum()
 

@@ -1,4 +1,4 @@
-"""References from a clip: the crop rule at any aspect ratio, the space in the world, what hides, when a frame is off."""
+"""References from clips: crop rule at any aspect ratio, the space in the world, what hides, when a frame is off."""
 
 import numpy as np
 import pytest
@@ -36,7 +36,7 @@ def clip_with(boxes, size=(120, 80), depths=(4.0, 2.0), frames=1, focal=100.0):
 def test_the_longer_side_fills_65_percent_and_the_object_is_centred(box, size):
     x1, y1 = min(box[2], size[0] - 3), min(box[3], size[1] - 3)
     box = (min(box[0], x1 - 15), box[1], x1, y1)
-    alpha = reference_of(clip_with([box], size), 0, 0).reference.picture[3].numpy()
+    alpha = reference_of(clip_with([box], size), (0,), 0).reference.picture[3].numpy()
     rows, columns = np.nonzero(alpha > 0.5)
     extent = np.array([np.ptp(columns) + 1, np.ptp(rows) + 1]) / SIDE
     assert extent.max() == pytest.approx(FILL, abs=0.03)
@@ -45,7 +45,7 @@ def test_the_longer_side_fills_65_percent_and_the_object_is_centred(box, size):
 
 
 def test_the_space_lies_where_the_pixels_and_the_depth_say():
-    placed = reference_of(clip_with([(50, 30, 70, 50)]), 0, 0)
+    placed = reference_of(clip_with([(50, 30, 70, 50)]), (0,), 0)
     distance = placed.reference.distance
     assert distance == pytest.approx(HALF_EXTENT * 100 * FILL / 10, rel=0.01)
     front = placed.to_world @ np.array([0.0, 0.0, -FRONT, 1.0])
@@ -60,10 +60,10 @@ def test_the_space_lies_where_the_pixels_and_the_depth_say():
 
 def test_nearer_objects_hide_and_farther_ones_do_not():
     boxes = [(40, 30, 80, 50), (60, 20, 70, 60)]
-    hidden = reference_of(clip_with(boxes), 0, 0).reference.hidden
+    hidden = reference_of(clip_with(boxes), (0,), 0).reference.hidden
     assert hidden.sum() > 0
-    assert not (hidden * (reference_of(clip_with(boxes), 0, 0).reference.picture[3] > 0.99)).any()
-    assert reference_of(clip_with(boxes, depths=(4.0, 6.0)), 0, 0).reference.hidden.sum() == 0
+    assert not (hidden * (reference_of(clip_with(boxes), (0,), 0).reference.picture[3] > 0.99)).any()
+    assert reference_of(clip_with(boxes, depths=(4.0, 6.0)), (0,), 0).reference.hidden.sum() == 0
 
 
 def test_visible_share_falls_with_what_is_hidden():
@@ -80,10 +80,16 @@ def test_visible_share_falls_with_what_is_hidden():
      ((0, 0, 60, 60), "two sides")],
 )  # fmt: skip
 def test_frames_that_cannot_be_references_say_why(box, why):
-    assert why in reference_of(clip_with([box]), 0, 0)
+    assert why in reference_of(clip_with([box]), (0,), 0)
+
+
+def test_several_objects_make_one_reference():
+    both = reference_of(clip_with([(20, 30, 40, 50), (70, 30, 100, 50)]), (0, 1), 0)
+    columns = np.flatnonzero((both.reference.picture[3] > 0.5).any(dim=0).numpy())
+    assert np.ptp(columns) + 1 == pytest.approx(FILL * SIDE, abs=6) and both.reference.hidden.sum() == 0
 
 
 def test_no_depth_no_reference():
     clip = clip_with([(40, 30, 80, 50)])
     clip.depth.valid[:] = False
-    assert "depth" in reference_of(clip, 0, 0)
+    assert "depth" in reference_of(clip, (0,), 0)
