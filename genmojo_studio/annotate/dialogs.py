@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QPoint
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QFileDialog, QInputDialog, QMenu
 
 from genmojo_core.errors import GenmojoError
@@ -13,6 +13,8 @@ from genmojo_core.tracks import edit_tracks
 from genmojo_core.tracks.annotation import REASONS
 from genmojo_studio import notify
 from genmojo_studio.annotate import verbs
+from genmojo_studio.annotate.log_dialog import LogDialog
+from genmojo_studio.annotate.seed_dialog import SeedDialog
 from genmojo_studio.translate import tr
 
 if TYPE_CHECKING:
@@ -29,7 +31,12 @@ class Dialogs:
 
     def seed(self) -> None:
         """Which tracker, which tracks; then it runs in the background."""
-        self._w.work.tracker.seed([o.id for o in self._s.objects()])
+        masks = self._s.clip is not None and self._s.clip.masks is not None
+        dialog = SeedDialog(self._s, self._w.work, {
+            "optical": "" if masks else tr("There are no masks yet: make one in step 1."),
+        }, self._w)  # fmt: skip
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.open()
 
     def fix(self) -> None:
         """What is wrong, by a key from 1 to 6; the run marked, or this frame, is meant."""
@@ -80,6 +87,9 @@ class Dialogs:
 
     def log(self) -> None:
         """Who did what, and how long it took."""
+        dialog = LogDialog(self._s, self._w)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.open()
 
     def import_tracks(self) -> None:
         """Tracks of a file become proposals."""

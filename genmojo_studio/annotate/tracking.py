@@ -6,6 +6,7 @@ its key was changed again, or after its step was undone, changes nothing.
 
 from __future__ import annotations
 
+import threading
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +18,7 @@ from genmojo_core.trackers.evidence import scene_of
 from genmojo_core.trackers.solver import SolveAnswer, SolveRequest, TrackSolver
 from genmojo_core.tracks import keys, suspicion
 from genmojo_core.tracks.annotation import KEY, Annotation
+from genmojo_core.tracks.edits import join
 from genmojo_core.tracks.suspicion import Calibration, Evidence, Spot, Suspicion
 from genmojo_studio import notify
 from genmojo_studio.annotate.session import Session
@@ -42,6 +44,8 @@ class Tracking(QObject):
     spots_ready = Signal(object)  # list of Spot, worst first
     busy_changed = Signal(str)
     solved = Signal(int)  # tracks changed
+    progressed = Signal(float)  # 0..1 of a seeding
+    seeded = Signal(int)  # tracks filled, 0 if cancelled or failed
 
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -55,6 +59,7 @@ class Tracking(QObject):
         self._stale: set[int] = set()  # objects whose evidence is to be gathered again
         self._gathering = False
         self._closed = False
+        self._cancelled = threading.Event()
         self._look = QTimer(self, singleShot=True, interval=_PATIENCE)
         self._look.timeout.connect(self._judge)
         session.edited.connect(self._edited)
@@ -63,6 +68,7 @@ class Tracking(QObject):
     def close(self) -> None:
         """Drop what is going on."""
         self._closed = True
+        self._cancelled.set()
         self._look.stop()
         self.tasks.close()
 
@@ -73,10 +79,45 @@ class Tracking(QObject):
 
     # ---- solving
 
-    def seed(self, objects: list[int]) -> None:
-        """Fill the tracks of objects from the pixels, wherever nobody said otherwise."""
-        for object_id in objects:
-            self._ask(SolveRequest.of(self._session.annotation, object_id), None)
+    def seed(self, objects: list[int]) -> bool:
+        """Fill the tracks of objects from the pixels, wherever nobody said otherwise; False if that cannot begin."""
+        clip = self._clip_with_masks()
+        requests = [SolveRequest.of(self._session.annotation, o) for o in objects]
+        requests = [r for r in requests if r.tracks]
+        if clip is None or not requests:
+            return False
+        self._cancelled.clear()
+        self.busy_changed.emit(tr("Seeding {n} tracks …").format(n=sum(len(r.tracks) for r in requests)))
+
+        def work() -> list[SolveAnswer]:
+            answers = []
+            for n, request in enumerate(requests):
+                answers.append(self._solver_for(clip).answer(
+                    request, lambda share, n=n: self.progressed.emit((n + share) / len(requests)),
+                    self._cancelled.is_set))  # fmt: skip
+            return answers
+
+        self.tasks.run(work, self._seeded, self._failed)
+        return True
+
+    def cancel(self) -> None:
+        """End a seeding that runs; nothing is changed."""
+        self._cancelled.set()
+
+    def _seeded(self, answers: list[SolveAnswer]) -> None:
+        """All objects as one step."""
+        if self._closed:
+            return
+        self.busy_changed.emit("")
+        annotation = self._session.annotation
+        parts = [answer.edit(annotation) for answer in answers]
+        made = [part for part in parts if part.changes]
+        count = sum(len(answer.found) for answer in answers)
+        if made:
+            self._session.do(join("seed", tr("Seed {n} tracks").format(n=count), made))
+        self._stale |= {answer.request.object_id for answer in answers}
+        self._look.start()
+        self.seeded.emit(count)
 
     def after_key(self, track: int, frame: int, step: int | None) -> None:
         """Solve the segments on both sides of a key that a person has just placed, as part of that step."""
@@ -117,20 +158,25 @@ class Tracking(QObject):
             session.said.emit(tr("Carried on from x {x:.1f}, y {y:.1f}.").format(x=xy[0], y=xy[1]))
         session.go(there)
 
-    def _ask(self, request: SolveRequest, key: _Key | None, span: tuple[int, int] | None = None) -> None:
-        clip = self._session.clip
-        if clip is None or clip.masks is None:
-            self._session.said.emit(tr("The clip is still being read.") if clip is None else
-                                    tr("There are no masks to track in: make one in step 1."))  # fmt: skip
+    def _ask(self, request: SolveRequest, key: _Key, span: tuple[int, int] | None = None) -> None:
+        clip = self._clip_with_masks()
+        if clip is None or not request.tracks:
             return
-        if not request.tracks:
-            return
-        self.busy_changed.emit(tr("Solving {n} tracks …").format(n=len(request.tracks) if key is None else 1))
+        self.busy_changed.emit(tr("Solving …"))
 
         def work() -> SolveAnswer:
             return self._solver_for(clip).answer(request)
 
         self.tasks.run(work, lambda answer: self._answered(answer, key, span), self._failed)
+
+    def _clip_with_masks(self) -> Clip | None:
+        """The clip to track in; says so if there is none."""
+        clip = self._session.clip
+        if clip is not None and clip.masks is not None:
+            return clip
+        reading, lacking = tr("The clip is still being read."), tr("There are no masks to track in: make one in step 1.")
+        self._session.said.emit(reading if clip is None else lacking)
+        return None
 
     def _solver_for(self, clip: Clip) -> TrackSolver:
         """The solver of a clip; made on the thread that uses it."""
@@ -138,7 +184,7 @@ class Tracking(QObject):
             self._solver, self._solved_clip = TrackSolver(clip), clip
         return self._solver
 
-    def _answered(self, answer: SolveAnswer, key: _Key | None, span: tuple[int, int] | None) -> None:
+    def _answered(self, answer: SolveAnswer, key: _Key, span: tuple[int, int] | None) -> None:
         if self._closed:
             return
         self.busy_changed.emit("")
@@ -146,7 +192,7 @@ class Tracking(QObject):
             answer = _within(answer, span)
         edit = answer.edit(self._session.annotation)
         if edit.changes:
-            self._session.do(edit, key.step if key is not None else None)
+            self._session.do(edit, key.step)
         self.solved.emit(len(answer.found))
         self._stale.add(answer.request.object_id)
         self._look.start()
@@ -207,6 +253,7 @@ class Tracking(QObject):
         if self._closed:
             return
         self.busy_changed.emit("")
+        self.seeded.emit(0)
         if isinstance(error, GenmojoError):
             self._session.said.emit(str(error))
         else:

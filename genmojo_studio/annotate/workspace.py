@@ -8,6 +8,7 @@ from pathlib import Path
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QStackedWidget, QToolBar, QVBoxLayout, QWidget
+from shiboken6 import isValid
 
 from genmojo_core.errors import GenmojoError
 from genmojo_studio import notify, theme
@@ -25,6 +26,7 @@ from genmojo_studio.annotate.screen import Screen
 from genmojo_studio.annotate.session import Session, open_session
 from genmojo_studio.annotate.steps import STEPS
 from genmojo_studio.annotate.strip import Strip
+from genmojo_studio.annotate.tour import Tour
 from genmojo_studio.annotate.trackability import measure
 from genmojo_studio.annotate.work import Work
 from genmojo_studio.settings import Settings
@@ -49,6 +51,8 @@ class AnnotateWorkspace(QMainWindow):
         self.settings = Settings()
         self.session: Session | None = None
         self.hands: Hands | None = None
+        self.tour: Tour | None = None
+        self._tour_waits = False
         self.step = 0
         self.setDockNestingEnabled(True)
         self.bar = StepBar()
@@ -67,6 +71,7 @@ class AnnotateWorkspace(QMainWindow):
         self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.BottomDockWidgetArea)
         self.setCentralWidget(_hint(tr("Open a clip to annotate it (Ctrl+O).")))
         self.held = HeldKeys(self, actions)
+        actions.bind("annotate.file.tour", self.start_tour)
         self._steps_later = QTimer(self, singleShot=True, interval=150)
         self._steps_later.timeout.connect(self._show_steps)
         self.bar.chosen.connect(self.show_step)
@@ -122,6 +127,8 @@ class AnnotateWorkspace(QMainWindow):
         self.screen_link.show_frame(session.frame)
         self.bar.saved.setText(tr("read only") if session.project.read_only else tr("saved"))
         self.canvas.setFocus()
+        if self._tour_waits:
+            QTimer.singleShot(0, self.start_tour)
 
     def close_clip(self) -> None:
         """Store and let go of the clip that is open."""
@@ -217,7 +224,15 @@ class AnnotateWorkspace(QMainWindow):
         target.setFocus(Qt.FocusReason.ShortcutFocusReason)
 
     def start_tour(self) -> None:
-        """Explain the annotator on a clip made on the spot."""
+        """Explain the annotator on the clip that is open, or on one made on the spot."""
+        if self.session is None:
+            self._tour_waits = True
+            self.actions.trigger("file.demo")
+            return
+        self._tour_waits = False
+        if self.tour is not None and isValid(self.tour):
+            self.tour.finish()
+        self.tour = Tour(self)
 
     def say(self, sentence: str) -> None:
         """A sentence in the status line of the window."""

@@ -27,7 +27,7 @@ def workspace(qapp, qtbot, clip_folder, tmp_path):
     state = AppState()
     table = ActionTable([*shell_actions.ACTIONS, *ACTIONS])
     made = AnnotateWorkspace(state, table)
-    made.settings = Settings("GenMOJO-tests", tmp_path.name)
+    Settings().forget_layouts()
     menus = Menus(made, table)  # so that keys work as in the app
     qtbot.addWidget(made)
     made.resize(1400, 860)
