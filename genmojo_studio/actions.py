@@ -166,11 +166,11 @@ class ActionTable:
         ]
 
     def subscribe(self, listener: Callable[[], None]) -> None:
-        """Calls `listener()` when a key, a binding or what is possible may have changed."""
+        """Calls `listener()` when a key or a binding has changed."""
         self._listeners.append(listener)
 
     def changed(self) -> None:
-        """Tells menus to look again at what is possible; call it after a change that no state value shows."""
+        """Tells menus that keys or bindings have changed. What is possible now they ask whenever they open."""
         for listener in list(self._listeners):
             listener()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, QTimer
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu
 
@@ -28,7 +28,11 @@ class Menus(QObject):
         for action in table:
             self._actions[action.id] = self._make(action)
         self._build()
-        table.subscribe(self._refresh_keys)
+        self._timer = QTimer(self)  # a workspace binds a hundred actions: they are looked at once
+        self._timer.setSingleShot(True)
+        self._timer.setInterval(0)
+        self._timer.timeout.connect(self._refresh_keys)
+        table.subscribe(self._timer.start)
 
     def action(self, action_id: str) -> QAction:
         """The Qt action of an entry, for tool bars."""

@@ -16,8 +16,8 @@ from genmojo_studio.translate import tr
 from genmojo_studio.watch import gain, plots
 from genmojo_studio.watch.run_log import RunLog
 
-REFRESH_MS = 60  # at most about 16 times a second
-MOST_POINTS = 2000  # per curve; longer ones are thinned
+REFRESH_MS = 100  # at most ten times a second
+MOST_POINTS = 1000  # per curve; longer ones are thinned
 _MARKS = {"stage": Qt.PenStyle.DashLine, "checkpoint": Qt.PenStyle.DotLine, "effect": Qt.PenStyle.DashDotLine}
 
 

@@ -1,4 +1,7 @@
-"""Plots in the colours of the theme."""
+"""Plots in the colours of the theme.
+
+Without grid lines: drawing them takes more than all the rest of a plot, and curves are repainted while a run goes on.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,6 @@ def dress(plot: pg.PlotWidget, theme: str) -> None:
     """Gives a plot the colours of a theme."""
     table = colours(theme)
     plot.setBackground(table.field)
-    plot.showGrid(x=True, y=True, alpha=0.15)
     for side in ("bottom", "left"):
         axis = plot.getAxis(side)
         axis.setPen(table.line)

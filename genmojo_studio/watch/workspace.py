@@ -169,7 +169,6 @@ class WatchWorkspace(QMainWindow):
         control.failed.connect(self._tell)
         control.ended.connect(self._run_ended)
         control.quiet.connect(self.view.set_quiet)
-        control.state_changed.connect(self.table.changed)
         self.setup.start_wanted.connect(lambda: self.table.trigger("run.start"))
         self.status.resume_button.clicked.connect(self._resume)
         self.view.view_changed.connect(self._show_orbit)
@@ -206,7 +205,6 @@ class WatchWorkspace(QMainWindow):
         if scene is not None and not self.control.log.step:
             self.curves.show_log(RunLog.of_scene(scene.curve))
         self.picking.clear()
-        self.table.changed()
 
     def _clip_changed(self) -> None:
         clip = self.state.clip
@@ -225,7 +223,6 @@ class WatchWorkspace(QMainWindow):
 
     def _look_changed(self) -> None:
         self.center.show_render_mode(str(self.appearance.look.mode))
-        self.table.changed()
 
     def _show_tracks(self) -> None:
         shown = list(self.tracks.sets.sets.values()) if self.tracks_shown else []

@@ -1,0 +1,138 @@
+"""Drives the real window through a whole job; started by test_watch.py in a process of its own.
+
+python tests/system/watching.py FOLDER      # screenshots and exports go there; the last line printed is JSON
+"""
+
+import json
+import sys
+import time
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+
+from genmojo_core.store import scene_hdf5
+from genmojo_studio import app, notify
+from genmojo_studio.export.request import ExportRequest
+from genmojo_studio.settings import Settings
+
+BUDGET = 45.0  # seconds of optimisation
+
+
+class Drive:
+    """A window and how a person gets through it."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        self.folder.mkdir(parents=True, exist_ok=True)
+        self.told, self.shots = [], 0
+        notify.show_dialog = lambda _parent, title, text, details: self.told.append((title, text, details))
+        self.application = app.make_application()
+        self.window = app.make_window(self.application, Settings())
+        self.window.resize(1920, 1080)
+        self.window.show()
+
+    def wait(self, condition, seconds, what):
+        until = time.monotonic() + seconds
+        while not condition():
+            QTest.qWait(10)
+            if self.told or time.monotonic() > until:
+                raise SystemExit(f"{what}: {self.told or 'not within the time'}")
+
+    def rest(self, seconds):
+        until = time.monotonic() + seconds
+        self.wait(lambda: time.monotonic() > until, seconds + 1, "rest")
+
+    def shot(self, name):
+        self.rest(0.3)
+        self.shots += 1
+        self.window.screen().grabWindow(0).save(str(self.folder / f"{self.shots:02d}-{name}.png"))
+
+    def do(self, action_id):
+        if not self.window.table.trigger(action_id):
+            raise SystemExit(f"{action_id} is not possible here")
+
+
+def main():
+    drive = Drive(sys.argv[1])
+    window = drive.window
+    drive.shot("start")
+    QTest.mouseClick(window.welcome.demo_button, Qt.MouseButton.LeftButton)
+    drive.wait(lambda: window.state.clip is not None, 60, "the demo clip")
+    watch = window.workspaces["watch"]
+    drive.wait(lambda: watch.setup.effects.rows, 120, "the effects")
+    drive.shot("clip")
+    figures = _run(drive, watch)
+    figures |= _exports(drive, watch)
+    figures["torch"] = "torch" in sys.modules
+    figures["stalls"] = sorted((round(busy) for _, busy in window.watchdog.stalls), reverse=True)[:5]
+    window.close()
+    print(json.dumps(figures))
+
+
+def _run(drive, watch):
+    window, control = drive.window, watch.control
+    watch.setup.budget.setValue(BUDGET)
+    window.watchdog.reset()
+    begun = time.monotonic()
+    QTest.mouseClick(watch.setup.start_button, Qt.MouseButton.LeftButton)
+    drive.wait(lambda: watch.session.snapshot is not None, 60, "the first cloud")
+    figures = {"first_cloud": time.monotonic() - begun}
+    drive.shot("cloud")
+    drive.wait(lambda: len(control.log.step) > 10, 240, "steps")
+    drive.shot("running")
+    for name, angles in (("right_30", (0, 30)), ("above_30", (30, 0)), ("input", (0, 0))):
+        drive.do(f"view.{name}")
+        drive.wait(lambda angles=angles: (watch.view.orbit.elevation, watch.view.orbit.azimuth) == angles, 20, name)
+        drive.rest(1.0)
+        drive.shot(name)
+    window.state.set(frame=10)
+    drive.shot("scrubbed")
+    window.state.set(selected_object=int(window.state.clip.object_ids[0]))
+    drive.do("view.solo")
+    drive.rest(1.0)
+    drive.shot("solo")
+    drive.do("edit.undo")
+    QTest.mouseClick(watch.view, Qt.MouseButton.LeftButton, pos=watch.view.rect().center())
+    drive.wait(lambda: watch.picking.trajectory is not None, 30, "the picked Gaussian")
+    figures["picked"] = watch.picking.list.topLevelItemCount()
+    drive.shot("picked")
+    drive.do("run.pause")
+    drive.wait(lambda: control.state == "paused", 30, "the pause")
+    steps = len(control.log.step)
+    drive.do("run.step")
+    drive.wait(lambda: len(control.log.step) == steps + 1 and control.state == "paused", 60, "one step")
+    drive.shot("paused")
+    drive.do("run.pause")
+    drive.wait(lambda: control.state == "running", 30, "going on")
+    drive.do("run.stop_keep")
+    drive.wait(lambda: watch.session.scene is not None, 120, "the scene that was kept")
+    figures["steps"] = len(control.log.step)
+    drive.shot("kept")
+    return figures
+
+
+def _exports(drive, watch):
+    take, scene = watch.take_away, str(watch.take_away.scene_file)
+    drive.do("compare.difference")
+    drive.wait(lambda: watch.center.comparison.render is not None, 30, "the comparison")
+    drive.shot("difference")
+    drive.do("compare.side")
+    copy, film = drive.folder / "copy.h5", drive.folder / "turn.mp4"
+    for request in (
+        ExportRequest("hdf5", scene, str(copy)),
+        ExportRequest("turntable", scene, str(film), seconds=1.0, fps=8, short_side=128),
+    ):
+        take.export(request)
+        drive.wait(lambda: take.last is not None, 180, request.kind)
+    take.save_picture(str(drive.folder / "view.png"), (640, 360), True)
+    drive.wait(lambda: take.last is not None, 60, "the picture")
+    drive.do("window.theme")
+    drive.shot("light")
+    copied = scene_hdf5.read(copy)
+    psnr = copied.curve[-1]["psnr_held_out"]
+    return {"gaussians": len(copied.xyz), "film": film.stat().st_size, "psnr": psnr}
+
+
+if __name__ == "__main__":
+    main()
