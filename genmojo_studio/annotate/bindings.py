@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -28,7 +29,7 @@ def bind(workspace: AnnotateWorkspace) -> None:
     hands = Hands(workspace)
     workspace.hands = hands
     for name, verb in {**hands.going.table(), **hands.points(), **hands.tracks(), **hands.rest()}.items():
-        workspace.actions.bind(f"annotate.{name}", verb, hands.enabled(name), hands.checked(name))
+        workspace.table.bind(f"annotate.{name}", verb, hands.enabled(name), hands.checked(name))
     held = workspace.held
     for name, state in verbs.STATES.items():
         held.add(f"annotate.point.{name}", hands.painter(state), hands.tapper(state), hands.paint_end)
@@ -93,11 +94,11 @@ class Hands:
         steps = {"left": (-1, 0), "right": (1, 0), "up": (0, -1), "down": (0, 1)}
         table: dict[str, Verb] = {}
         for n in range(1, 6):
-            table[f"point.choose_{n}"] = lambda n=n: s.select(s.active[0], n)
-            table[f"point.object_{n}"] = lambda n=n: self._object(n)
+            table[f"point.choose_{n}"] = partial(self._number, n)
+            table[f"point.object_{n}"] = partial(self._object, n)
         for side, (dx, dy) in steps.items():
-            table[f"point.nudge_{side}"] = lambda dx=dx, dy=dy: self.nudge(0.25 * dx, 0.25 * dy)
-            table[f"point.push_{side}"] = lambda dx=dx, dy=dy: self.nudge(dx, dy)
+            table[f"point.nudge_{side}"] = partial(self.nudge, 0.25 * dx, 0.25 * dy)
+            table[f"point.push_{side}"] = partial(self.nudge, dx, dy)
         return table | {
             "point.next": lambda: self.cycle(1),
             "point.previous": lambda: self.cycle(-1),
@@ -151,12 +152,12 @@ class Hands:
             "edit.redo": s.redo,
             "edit.checkpoint": self.dialogs.checkpoint,
             "edit.history": self.dialogs.history,
-            "file.new_clip": lambda: w.actions.trigger("file.open_clip"),
+            "file.new_clip": lambda: w.table.trigger("file.open_clip"),
             "file.import": self.dialogs.import_tracks,
             "file.export": self.dialogs.export_tracks,
             "file.tour": w.start_tour,
             "move.panel": w.next_panel,
-            **{f"step.{n}": (lambda n=n: w.show_step(n - 1)) for n in range(1, 5)},
+            **{f"step.{n + 1}": partial(w.show_step, n) for n in range(4)},
         }
 
     def enabled(self, name: str) -> Callable[[], bool]:
@@ -273,6 +274,9 @@ class Hands:
         self._w.canvas.set_overlay(not self._w.canvas.show_overlay)
 
     # ---- helpers
+
+    def _number(self, number: int) -> None:
+        self._s.select(self._s.active[0], number)
 
     def _object(self, place: int) -> None:
         objects = self._s.objects()

@@ -7,11 +7,11 @@ waits for any more are never started; each target has a generation number that t
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, Signal, SignalInstance
 
 from genmojo_core.clip.frames import FolderFrames, FrameSource, MaskFrames, open_source
 from genmojo_core.errors import GenmojoError
@@ -154,10 +154,10 @@ class FrameCache(QObject):
             self._changed.notify_all()
         self._say(self.failed, frame, sentence)
 
-    def _say(self, signal: Callable, *values: object) -> None:
+    def _say(self, signal: SignalInstance, *values: object) -> None:
         """Emit, unless the window is gone."""
         if self._open:
-            signal.emit(*values)  # type: ignore[attr-defined]
+            signal.emit(*values)
 
     def _next(self) -> int | None:
         """The most wanted frame that is neither there nor being decoded."""

@@ -49,8 +49,9 @@ class ObjectsPage(QWidget):
         self.reason = QComboBox()
         self.tools: dict[Tool, QToolButton] = {}
         self.cut = QPushButton(tr("Cut out"))
-        self.progress = QProgressBar(maximum=100, visible=False)
+        self.progress = QProgressBar(maximum=100)
         self.note = QLabel(wordWrap=True)
+        self.progress.hide()
         self._arrange()
         session.edited.connect(self._edited)
         session.selected.connect(self._select)
@@ -107,7 +108,7 @@ class ObjectsPage(QWidget):
             reason = REASONS[self.reason.currentIndex()]
             self._put([replace(info, status="rejected", order=0, reason=reason)], tr("Reject {name}"), info.name)
 
-    def move(self, step: int) -> None:
+    def reorder(self, step: int) -> None:
         """Earlier (-1) or later (1) in the order."""
         info, objects = self.current(), self._session.objects()
         if info is None or info not in objects:
@@ -138,22 +139,28 @@ class ObjectsPage(QWidget):
             if column:
                 item.setFlags(item.flags() & ~Qt.ItemFlag.ItemIsEditable)
             self.table.setItem(row, column, item)
-        head = self.table.item(row, 0)
         chosen = info.status == "chosen"
-        head.setIcon(point_icon(self._session.place_of(info.id), 0) if chosen else QIcon())
+        icon = point_icon(self._session.place_of(info.id), 0) if chosen else QIcon()
         advice = {"small": tr("very small"), "static": tr("hardly moves"), "hidden": tr("seen in few frames")}
         text = info.reason or (advice.get(f.advice, "") if f else "")
         for column in range(_COLUMNS):
-            self.table.item(row, column).setToolTip(text)
-        if info.status == "candidate" and text:
-            self.table.item(row, 1).setText(f"? {text}")
+            cell = self.table.item(row, column)
+            if cell is None:
+                continue
+            cell.setToolTip(text)
+            if column == 0:
+                cell.setIcon(icon)
+            elif column == 1 and info.status == "candidate" and text:
+                cell.setText(f"? {text}")
 
     def _arrange(self) -> None:
         self.table.setHorizontalHeaderLabels([tr("object"), tr("choice"), tr("size"), tr("motion"), tr("seen / cut")])
         tips = ("", "", tr("Median share of the frame"), tr("Pixels per frame at 1080 lines"),
                 tr("Share of frames in which it is seen; of those, in which it is partly hidden"))  # fmt: skip
-        for column, tip in enumerate(tips):
-            self.table.horizontalHeaderItem(column).setToolTip(tip)
+        for place, tip in enumerate(tips):
+            header = self.table.horizontalHeaderItem(place)
+            if header is not None:
+                header.setToolTip(tip)
         self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self.table.horizontalHeader().setMinimumSectionSize(36)
@@ -181,7 +188,7 @@ class ObjectsPage(QWidget):
                        tr("enough objects")):  # fmt: skip
             self.reason.addItem(reason)
         self.reason.setAccessibleName(tr("Reason for leaving it out"))
-        up, down = QToolButton(text="↑", toolTip=tr("Earlier")), QToolButton(text="↓", toolTip=tr("Later"))
+        up, down = _tool("↑", tr("Earlier")), _tool("↓", tr("Later"))
         self.choose_button.clicked.connect(self.choose)
         self.reject_button.clicked.connect(self.reject)
         up.clicked.connect(self._up)
@@ -202,7 +209,8 @@ class ObjectsPage(QWidget):
             (Tool.SCRIBBLE, tr("click / scribble"), tr("Click on it or draw over it")),
             (Tool.SCRIBBLE_OUT, tr("not this"), tr("Draw over what is not part of it")),
         ):
-            button = QToolButton(text=title, checkable=True, toolTip=tip)
+            button = _tool(title, tip)
+            button.setCheckable(True)
             button.clicked.connect(self._tool_clicked)
             self.tools[tool] = button
             row.addWidget(button)
@@ -247,7 +255,15 @@ class ObjectsPage(QWidget):
             self.refresh()
 
     def _up(self) -> None:
-        self.move(-1)
+        self.reorder(-1)
 
     def _down(self) -> None:
-        self.move(1)
+        self.reorder(1)
+
+
+def _tool(text: str, tip: str) -> QToolButton:
+    """A small button with a tool tip."""
+    button = QToolButton()
+    button.setText(text)
+    button.setToolTip(tip)
+    return button

@@ -29,7 +29,7 @@ class Player(QObject):
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self.speed, self.loop = 1.0, None
+        self.speed = 1.0
         self.loop: tuple[int, int] | None = None
         self._timer = QTimer(self)
         self._timer.setTimerType(Qt.TimerType.PreciseTimer)
@@ -114,7 +114,8 @@ class PlayPanel(QWidget):
         self.buttons: dict[str, QToolButton] = {}
         for name, _ in _TRANSPORT:
             action = self._actions[f"annotate.{name}"]
-            button = QToolButton(toolTip=f"{tr(action.text)} ({', '.join(self._actions.keys(action.id))})")
+            button = QToolButton()
+            button.setToolTip(f"{tr(action.text)} ({', '.join(self._actions.keys(action.id))})")
             button.setAccessibleName(tr(action.text))
             button.setObjectName(action.id)
             button.setAutoRepeat(action.repeats)
@@ -131,7 +132,10 @@ class PlayPanel(QWidget):
             self.brush.addItem(title, state)
         self.brush.setAccessibleName(tr("State that a drag paints"))
         row.addWidget(self.brush)
-        sort = QToolButton(text=tr("worst first"), checkable=True, toolTip=tr("Order the rows by suspicion"))
+        sort = QToolButton()
+        sort.setText(tr("worst first"))
+        sort.setToolTip(tr("Order the rows by suspicion"))
+        sort.setCheckable(True)
         sort.toggled.connect(self.sheet.sort_by_suspicion)
         row.addWidget(sort)
         self.speed = QComboBox()

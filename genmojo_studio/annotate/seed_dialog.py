@@ -1,4 +1,4 @@
-"""Before seeding: which tracker, which tracks, what it needs and what its licence says. While it runs: progress, cancel.
+"""Before seeding: which tracker, which tracks, what it needs, what its licence says. While it runs: progress, cancel.
 
 What a tracker finds is a proposal: places and states that a person gave are never overwritten.
 """
@@ -75,7 +75,9 @@ class SeedDialog(QDialog):
             column.addWidget(button)
         self.note = QLabel(tr("Your keys, accepted places and painted states stay as they are."), wordWrap=True)
         column.addWidget(self.note)
-        self.progress = QProgressBar(maximum=100, visible=False)
+        self.progress = QProgressBar()
+        self.progress.setMaximum(100)
+        self.progress.hide()
         column.addWidget(self.progress)
         self.buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
         self.start = self.buttons.addButton(tr("Seed"), QDialogButtonBox.ButtonRole.ActionRole)

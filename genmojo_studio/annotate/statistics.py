@@ -55,13 +55,12 @@ def figures(annotation: Annotation, stride: int) -> list[tuple[str, str]]:
     settled = np.stack([(c.flags & (KEY | CONFIRMED)) > 0 for c in cells])[:, ::stride]
     reviews = [annotation.tracks[t].review for t in tracks]
     total = max(int((state > 0).sum()), 1)
-    parts = [("tracks", str(len(tracks))), ("keys per track (median)", f"{np.median(keys):g}"),
+    return [("tracks", str(len(tracks))), ("keys per track (median)", f"{np.median(keys):g}"),
              ("keys per track (most)", str(int(keys.max()))),
              ("frames of the stride accepted", f"{settled.mean():.0%}"),
              ("visible", f"{(state == 1).sum() / total:.0%}"), ("occluded", f"{(state == 2).sum() / total:.0%}"),
              ("out of view", f"{(state == 3).sum() / total:.0%}"), ("approved", str(reviews.count("approved"))),
              ("sent back (rounds)", str(sum(annotation.tracks[t].rounds for t in tracks)))]  # fmt: skip
-    return parts
 
 
 def log_csv(rows: list[Row], *, with_effort: bool) -> str:

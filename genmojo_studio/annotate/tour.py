@@ -33,8 +33,8 @@ STOPS = (
          "hidden. Select a row and press Choose, or leave it out with a reason."),
     Stop(0, lambda w: w.objects.cut, "More objects", "No mask? Draw a box around the object, or click and scribble on "
          "it, then Cut out. It is followed through the clip."),
-    Stop(1, lambda w: w.canvas, "Points", "Click five points on each object; the next one is chosen for you. Hold Z for "
-         "the loupe, Ctrl and an arrow nudge by a quarter of a pixel."),
+    Stop(1, lambda w: w.canvas, "Points", "Click five points on each object; the next one is chosen for you. Hold Z "
+         "for the loupe, Ctrl and an arrow nudge by a quarter of a pixel."),
     Stop(1, lambda w: w.points.meter, "A good place", "A corner can be followed, an edge slides, a flat place is lost. "
          "The bar shows it for the place under the mouse."),
     Stop(1, lambda w: w.points.seed, "Seed", "A tracker proposes the rest. It never overwrites what you placed."),
@@ -63,7 +63,8 @@ class Tour(QFrame):
         self.title, self.text, self.count = QLabel(), QLabel(wordWrap=True), QLabel()
         self.title.setProperty("role", "title")
         self.count.setProperty("role", "dim")
-        self.back, self.next, self.end = QPushButton(tr("Back")), QPushButton(tr("Next")), QPushButton(tr("End the tour"))
+        self.back, self.next = QPushButton(tr("Back")), QPushButton(tr("Next"))
+        self.end = QPushButton(tr("End the tour"))
         self.back.clicked.connect(self._back)
         self.next.clicked.connect(self._next)
         self.end.clicked.connect(self.finish)
@@ -81,7 +82,7 @@ class Tour(QFrame):
     def go(self, at: int) -> None:
         """Show a stop."""
         self.at = min(max(at, 0), len(STOPS) - 1)
-        stop = STOPS[self.at]
+        stop: Stop = STOPS[self.at]
         if self._w.step != stop.step:
             self._w.show_step(stop.step)
         self.title.setText(f"<b>{tr(stop.title)}</b>")

@@ -7,6 +7,7 @@ its key was changed again, or after its step was undone, changes nothing.
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,7 +18,7 @@ from genmojo_core.errors import GenmojoError
 from genmojo_core.trackers.evidence import scene_of
 from genmojo_core.trackers.solver import SolveAnswer, SolveRequest, TrackSolver
 from genmojo_core.tracks import keys, suspicion
-from genmojo_core.tracks.annotation import KEY, Annotation
+from genmojo_core.tracks.annotation import KEY, Annotation, Cells
 from genmojo_core.tracks.edits import join
 from genmojo_core.tracks.suspicion import Calibration, Evidence, Spot, Suspicion
 from genmojo_studio import notify
@@ -90,15 +91,16 @@ class Tracking(QObject):
         self.busy_changed.emit(tr("Seeding {n} tracks …").format(n=sum(len(r.tracks) for r in requests)))
 
         def work() -> list[SolveAnswer]:
-            answers = []
-            for n, request in enumerate(requests):
-                answers.append(self._solver_for(clip).answer(
-                    request, lambda share, n=n: self.progressed.emit((n + share) / len(requests)),
-                    self._cancelled.is_set))  # fmt: skip
-            return answers
+            solver = self._solver_for(clip)
+            return [solver.answer(r, self._progress(n, len(requests)), self._cancelled.is_set)
+                    for n, r in enumerate(requests)]  # fmt: skip
 
         self.tasks.run(work, self._seeded, self._failed)
         return True
+
+    def _progress(self, done: int, count: int) -> Callable[[float], None]:
+        """Tells the share of the whole of one object's progress."""
+        return lambda share: self.progressed.emit((done + share) / count)
 
     def cancel(self) -> None:
         """End a seeding that runs; nothing is changed."""
@@ -174,7 +176,8 @@ class Tracking(QObject):
         clip = self._session.clip
         if clip is not None and clip.masks is not None:
             return clip
-        reading, lacking = tr("The clip is still being read."), tr("There are no masks to track in: make one in step 1.")
+        reading = tr("The clip is still being read.")
+        lacking = tr("There are no masks to track in: make one in step 1.")
         self._session.said.emit(reading if clip is None else lacking)
         return None
 
@@ -215,7 +218,8 @@ class Tracking(QObject):
         self._gathering = True
 
         def work() -> dict[int, Evidence]:
-            solver, found = self._solver_for(clip), {}
+            solver = self._solver_for(clip)
+            found: dict[int, Evidence] = {}
             for request in requests:
                 found |= solver.evidence(request)
             return found
@@ -266,10 +270,10 @@ def _is_key(annotation: Annotation, track: int, frame: int) -> bool:
 
 def _within(answer: SolveAnswer, span: tuple[int, int]) -> SolveAnswer:
     """Only the frames first..last of an answer."""
-    found = {}
+    found: dict[int, tuple[np.ndarray, Cells]] = {}
     for track, (frames, cells) in answer.found.items():
         inside = (frames >= span[0]) & (frames <= span[1])
-        found[track] = (frames[inside], type(cells)(*(a[inside] for a in cells.arrays())))
+        found[track] = (frames[inside], Cells(*(a[inside] for a in cells.arrays())))
     return SolveAnswer(answer.request, found)
 
 

@@ -20,7 +20,7 @@ DOUBT = 0.5  # suspicion from which Enter does not accept a point unseen
 def place(session: Session, xy: tuple[float, float], *, snapped: bool = False) -> int | None:
     """Put the active point of the frame at a raster position, as a new track if it has none; it is seen there.
 
-    Dragging keeps the state instead (`set_key`), so that the place of a hidden point can be put right. Returns the step.
+    Dragging keeps the state instead (`set_key`), so that a hidden point's place can be put right. Returns the step.
     """
     object_id, number = session.active
     track = session.track

@@ -41,13 +41,25 @@ _DOCKS = (("buttons", "Buttons", Qt.DockWidgetArea.LeftDockWidgetArea),
 class AnnotateWorkspace(QMainWindow):
     """Visualisation in the middle; buttons, information and video play around it.
 
-    Attributes that hold the clip's parts (`session`, `canvas`, `pages`, ...) exist once a clip is open.
+    Attributes that hold the clip's parts (`canvas`, `pages`, ...) exist once a clip is open.
     """
+
+    canvas: Canvas
+    strip: Strip
+    screen_link: Screen
+    work: Work
+    buttons: ButtonPanel
+    play: PlayPanel
+    pages: QStackedWidget
+    objects: ObjectsPage
+    points: PointsPage
+    refine: RefinePage
+    review: ReviewPage
 
     def __init__(self, state: AppState, actions: ActionTable, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowFlags(Qt.WindowType.Widget)
-        self.state, self.actions = state, actions
+        self.state, self.table = state, actions
         self.settings = Settings()
         self.session: Session | None = None
         self.hands: Hands | None = None
@@ -55,7 +67,7 @@ class AnnotateWorkspace(QMainWindow):
         self._tour_waits = False
         self.step = 0
         self.setDockNestingEnabled(True)
-        self.bar = StepBar()
+        self.bar: StepBar = StepBar()
         self._tool_bar = QToolBar(tr("Steps"))
         self._tool_bar.setObjectName("steps")
         self._tool_bar.setMovable(False)
@@ -97,11 +109,13 @@ class AnnotateWorkspace(QMainWindow):
         self.canvas, self.strip = Canvas(), Strip(session)
         self.screen_link = Screen(session, self.canvas, self.strip)
         self.work = Work(session, self)
-        self.buttons, self.play = ButtonPanel(self.actions), PlayPanel(session, self.actions)
+        self.buttons, self.play = ButtonPanel(self.table), PlayPanel(session, self.table)
         self.pages = QStackedWidget()
         self.objects, self.points = ObjectsPage(session), PointsPage(session)
         self.refine, self.review = RefinePage(session), ReviewPage(session)
-        self._by_name = {"objects": self.objects, "points": self.points, "refine": self.refine, "review": self.review}
+        self._by_name: dict[str, QWidget] = {
+            "objects": self.objects, "points": self.points, "refine": self.refine, "review": self.review,
+        }  # fmt: skip
         for page in self._by_name.values():
             self.pages.addWidget(page)
         middle = QWidget()
@@ -213,12 +227,13 @@ class AnnotateWorkspace(QMainWindow):
 
     def next_panel(self) -> None:
         """Move the keyboard on: frame, buttons, information, dope sheet, and around."""
-        stops: list[QWidget] = [self.canvas, self.buttons, self.pages.currentWidget(), self.play.sheet]
+        page = self._by_name[STEPS[self.step].page]
+        stops: list[QWidget] = [self.canvas, self.buttons, page, self.play.sheet]
         focus = self.focusWidget()
         inside = (n for n, w in enumerate(stops) if focus is not None and (w is focus or w.isAncestorOf(focus)))
         at = next(inside, -1)
         target = stops[(at + 1) % len(stops)]
-        if target.focusPolicy() == Qt.FocusPolicy.NoFocus or target in (self.buttons, self.pages.currentWidget()):
+        if target.focusPolicy() == Qt.FocusPolicy.NoFocus or target in (self.buttons, page):
             target = next((c for c in target.findChildren(QWidget) if c.isVisible() and c.isEnabled()
                            and c.focusPolicy() & Qt.FocusPolicy.TabFocus), target)  # fmt: skip
         target.setFocus(Qt.FocusReason.ShortcutFocusReason)
@@ -227,7 +242,7 @@ class AnnotateWorkspace(QMainWindow):
         """Explain the annotator on the clip that is open, or on one made on the spot."""
         if self.session is None:
             self._tour_waits = True
-            self.actions.trigger("file.demo")
+            self.table.trigger("file.demo")
             return
         self._tour_waits = False
         if self.tour is not None and isValid(self.tour):

@@ -92,11 +92,11 @@ def test_the_whole_path_with_mouse_and_keys(workspace, qtbot, tmp_path, monkeypa
     assert session.annotation.track(track).flags[t] & KEY
 
     workspace.show_step(3)
-    workspace.actions.trigger("annotate.review.approve")
+    workspace.table.trigger("annotate.review.approve")
     assert session.annotation.tracks[track].review == "approved"
     target = tmp_path / "out.npz"
     monkeypatch.setattr("PySide6.QtWidgets.QFileDialog.getSaveFileName", lambda *a, **k: (str(target), ""))
-    workspace.actions.trigger("annotate.file.export")
+    workspace.table.trigger("annotate.file.export")
     qtbot.waitUntil(target.exists, timeout=20_000)
     stored = read_tracks(target, session.annotation.size)
     assert stored.xy.shape[:2] == (len(places), session.annotation.frames)
@@ -141,9 +141,9 @@ def test_enter_stops_at_doubts_and_accepts_the_rest(workspace, qtbot):
     session.suspicion[doubted][2] = 0.9
     session.select_track(next(iter(session.annotation.tracks)))
     session.go(2)
-    workspace.actions.trigger("annotate.move.accept")
+    workspace.table.trigger("annotate.move.accept")
     assert session.frame == 2 and session.track == doubted
-    workspace.actions.trigger("annotate.move.accept")
+    workspace.table.trigger("annotate.move.accept")
     assert session.frame == 4
     confirmed = session.annotation.at(2).flags
     assert (confirmed & 4).all()
@@ -209,9 +209,9 @@ def test_review_returns_a_track_with_reason_and_run(workspace, qtbot, monkeypatc
     workspace.show_step(3)
     session, track = workspace.session, workspace.session.track
     session.go(3)
-    workspace.actions.trigger("annotate.point.run_start")
+    workspace.table.trigger("annotate.point.run_start")
     session.go(6)
-    workspace.actions.trigger("annotate.point.run_end")
+    workspace.table.trigger("annotate.point.run_end")
     workspace.review.reason.setCurrentIndex(2)
     workspace.review.note.setText("jumps to the other one")
     workspace.review.fix_button.click()
@@ -224,12 +224,12 @@ def test_every_action_is_bound_and_has_no_rival(workspace):
     from genmojo_studio.actions import PRESETS
     from genmojo_studio.annotate.actions import ACTIONS
 
-    unbound = [a.id for a in ACTIONS if not workspace.actions.is_bound(a.id)]
+    unbound = [a.id for a in ACTIONS if not workspace.table.is_bound(a.id)]
     assert not unbound
     for preset in PRESETS:
-        workspace.actions.set_preset(preset)
-        assert workspace.actions.conflicts() == []
-    workspace.actions.set_preset("Studio")
+        workspace.table.set_preset(preset)
+        assert workspace.table.conflicts() == []
+    workspace.table.set_preset("Studio")
 
 
 def test_all_that_can_be_pressed_has_a_name_and_takes_the_keyboard(workspace):
@@ -249,7 +249,7 @@ def test_all_that_can_be_pressed_has_a_name_and_takes_the_keyboard(workspace):
     workspace.canvas.setFocus()
     seen = set()
     for _ in range(4):
-        workspace.actions.trigger("annotate.move.panel")
+        workspace.table.trigger("annotate.move.panel")
         focus = workspace.focusWidget()
         seen.add(next(n for n, w in enumerate((workspace.canvas, workspace.buttons, workspace.pages, workspace.play))
                       if w is focus or w.isAncestorOf(focus)))  # fmt: skip
