@@ -46,10 +46,9 @@ class SceneTextures:
         self.places, self.turns, self.sizes, self.colours, self.next_places = (
             nearest(ctx.texture(size, 4, dtype="f4")) for _ in range(5)
         )
-        self.scalars = nearest(ctx.texture(size, 1, dtype="f4"))
+        self.scalars = nearest(ctx.texture(size, 1, bytes(4 * size[0] * size[1]), dtype="f4"))
         self.objects = nearest(ctx.texture((3, max(1, len(snapshot.object_ids))), 4, dtype="f4"))
         self.order = nearest(ctx.texture(size, 1, dtype="u4"))
-        self.order.filter = _NEAREST
         self._next_of: object = None
         self._layers: list[Any] = []  # places, turns, size ratios, colours
         self._slot_of: dict[int, int] = {}  # frame -> layer; order of use, oldest first

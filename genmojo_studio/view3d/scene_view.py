@@ -284,7 +284,7 @@ class SceneView(QWidget):
         self.surface = surface
         surface.setGeometry(self.rect())
         surface.drawn.connect(self._drawn)
-        surface.failed.connect(self._failed)
+        surface.failed.connect(self._failed, Qt.ConnectionType.QueuedConnection)  # never within a paint event
         surface.show()
         self.overlay.raise_()
 
@@ -292,7 +292,9 @@ class SceneView(QWidget):
         """OpenGL did not work: the processor draws. Nothing left to fall back to: say why."""
         if isinstance(self.surface, SplatView):
             old = self.surface
+            old.hide()
             self._use(CpuView(self))
+            old.drop_gl()
             old.deleteLater()
             self.set_message(f"{_no_gl()} ({reason})")
             self._redraw()

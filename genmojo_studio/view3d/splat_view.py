@@ -89,21 +89,18 @@ class SplatView(QOpenGLWidget):
         if request is None:
             target.clear(0.06, 0.065, 0.07, 1.0)
             return
-        start = time.perf_counter()
-        quality = self._quality(request)
-        self._feeder.feed(self.renderer, request)
-        self.renderer.draw(request.view(*target.size), request.look, request.t, quality)
-        bounds = self._scale(request)
-        self.renderer.resolve(target, request.look, bounds)
-        if self.renderer.is_software:
-            self._ctx.finish()
-        ms = (time.perf_counter() - start) * 1e3
+        try:
+            report = self._draw(self.renderer, request, target)
+        except (GenmojoError, moderngl.Error, MemoryError) as error:
+            self._request = None
+            self.failed.emit(str(error).splitlines()[0] if str(error) else type(error).__name__)
+            return
         if request.moving:
-            self._detail.took(ms)
+            self._detail.took(report.ms)
         else:
-            self._full_ms = ms
+            self._full_ms = report.ms
             self._prefetch.start()
-        self.drawn.emit(FrameReport(request, ms, quality, bounds, self.renderer.order_is_exact))
+        self.drawn.emit(report)
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         """Where Qt cannot make a context it says nothing: look whether there is one."""
@@ -125,6 +122,19 @@ class SplatView(QOpenGLWidget):
         self.drop_gl()
         super().closeEvent(event)
 
+    def _draw(self, renderer: SplatRenderer, request: FrameRequest, target: Any) -> FrameReport:
+        """Draw a request into a framebuffer."""
+        start = time.perf_counter()
+        quality = self._quality(request)
+        self._feeder.feed(renderer, request)
+        renderer.draw(request.view(*target.size), request.look, request.t, quality)
+        bounds = self._scale(renderer, request)
+        renderer.resolve(target, request.look, bounds)
+        if renderer.is_software:
+            renderer.ctx.finish()  # else the time would be somebody else's
+        ms = (time.perf_counter() - start) * 1e3
+        return FrameReport(request, ms, quality, bounds, renderer.order_is_exact)
+
     def _check_context(self) -> None:
         """Tell the owner that there is no OpenGL."""
         if self.isVisible() and (self.context() is None or not self.isValid()):
@@ -140,15 +150,15 @@ class SplatView(QOpenGLWidget):
             self._was_moving = True
         return self._detail.quality
 
-    def _scale(self, request: FrameRequest) -> tuple[float, float]:
+    def _scale(self, renderer: SplatRenderer, request: FrameRequest) -> tuple[float, float]:
         """The colour scale: the look's, or the picture's own, measured at rest and kept while moving."""
         look = request.look
         if look.value_range is not None:
             return look.value_range
-        if look.mode not in SCALAR_MODES or self.renderer is None:
+        if look.mode not in SCALAR_MODES:
             return 0.0, 1.0
         if self._bounds[0] != look.mode or not request.moving:
-            self._bounds = (look.mode, self.renderer.measure(look))
+            self._bounds = (look.mode, renderer.measure(look))
         return self._bounds[1]
 
     def _bring_frame(self) -> None:

@@ -52,7 +52,7 @@ def test_large_scenes_sort_on_a_thread_and_the_newest_request_wins() -> None:
 
 
 def test_detail_follows_what_frames_cost() -> None:
-    """A machine on which a full frame takes a second drops at once and stays under the limit; a fast one never drops."""
+    """A machine on which a full frame takes a second drops at once and stays under the limit; a fast one never."""
 
     def cost(full_ms: float, quality: object) -> float:
         return full_ms * (0.3 / quality.stride + 0.7 * quality.scale**2)
@@ -84,7 +84,7 @@ def plain_reference() -> Reference:
 
 
 def test_the_scene_follows_the_hand() -> None:
-    """Dragging to the right turns the scene to the right: the camera goes left. Moving keeps the point under the hand."""
+    """Dragging to the right turns the scene to the right. Moving keeps the point under the hand."""
     ref, view = plain_reference(), plain_reference().view
     turned = dragged(Orbit(), ref, view, (100.0, 40.0), Action.TURN)
     assert (turned.azimuth, turned.elevation) == (-35.0, 14.0)
@@ -170,7 +170,7 @@ def test_a_snapshot_of_a_file_goes_to_any_frame() -> None:
 
 
 def test_pixels_that_are_not_square_are_shown_square() -> None:
-    """A clip of anamorphic pixels (fy twice fx) fills a window of its true shape; nearly square ones keep their grid."""
+    """A clip of anamorphic pixels (fy twice fx) fills a window of its true shape; nearly square ones stay."""
     reference = plain_reference()
     source = reference.view
     wide = replace(reference, view=View(source.world_to_camera, 150, 300, 80, 120, 160, 240))

@@ -54,9 +54,10 @@ def test_previews_leave_nothing_behind(display: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(1200)
 @pytest.mark.parametrize("way", WAYS)
 def test_5000_previews_leave_nothing_behind(display: str, way: str) -> None:
-    answer = run_window(display, way, "previews", "5000", timeout=290)
+    answer = run_window(display, way, "previews", "5000", timeout=1100)
     assert answer["newest"] == 5000
     assert answer["growth_mb"] < 8
 
@@ -69,6 +70,14 @@ def test_without_opengl_the_processor_draws_and_says_so(display: str) -> None:
         assert surface == "CpuView"
         assert "No OpenGL" in message
         assert brightest > 100
+
+
+def test_a_driver_that_fails_while_drawing(display: str) -> None:
+    answer = run_window(display, "xcb_egl", "broken")
+    assert answer["surface"] == "CpuView"
+    assert "driver out of memory" in answer["message"]
+    assert answer["brightest"] > 100
+    assert answer["left"] == []
 
 
 def _check_life(answer: dict, surface: str) -> None:

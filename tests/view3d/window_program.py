@@ -19,6 +19,7 @@ from scenes import small_scene
 
 from genmojo_studio.app import make_application
 from genmojo_studio.view3d.cpu_painter import CpuPainter
+from genmojo_studio.view3d.cpu_view import CpuView
 from genmojo_studio.view3d.frames import FrameReport
 from genmojo_studio.view3d.gl_probe import GlKind, probe
 from genmojo_studio.view3d.look import Look, Mode
@@ -210,6 +211,30 @@ def missing(_: int) -> dict:
     return answer
 
 
+def broken(_: int) -> dict:
+    """A driver that fails while drawing (out of memory, lost context): the processor takes over, with the reason."""
+    view = SceneView(engine="gl")
+    watched = Watched(view)
+    view.resize(200, 150)
+    view.set_snapshot(the_scene())
+    watched.after(view.show)
+
+    def fail(*_: object) -> None:
+        raise MemoryError("driver out of memory")
+
+    view.surface.renderer.draw = fail
+    watched.reports.clear()
+    view.set_orbit(Orbit(azimuth=5.0))
+    wait(lambda: isinstance(view.surface, CpuView) and bool(watched.reports))
+    answer = {
+        "surface": type(view.surface).__name__,
+        "message": view.overlay.message,
+        "brightest": int(shown(view).max()),
+    }
+    view.close()
+    return answer
+
+
 def main() -> None:
     application = make_application()
     case, count = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 0
@@ -220,7 +245,7 @@ def main() -> None:
     elif case == "processor":
         answer = life("cpu")
     else:
-        answer = {"docks": docks, "previews": previews, "missing": missing}[case](count)
+        answer = {"docks": docks, "previews": previews, "missing": missing, "broken": broken}[case](count)
     answer["probe"] = probe().name
     answer["left"] = [t.name for t in threading.enumerate() if t.name.startswith("splat")]
     print(json.dumps(answer))
