@@ -101,6 +101,7 @@ class RunSetup(QWidget):
             preset=str(self.preset.currentData()),
             changes={"budget_seconds": self._budget(), "device": str(self.device.currentData())},
             effects=self.effects.overrides(),
+            look_at=self._state.frame,
         )
 
     def _budget(self) -> float:

@@ -35,13 +35,13 @@ class FirstCloud:
 
 
 def first_cloud(request: RunRequest) -> FirstCloud | None:
-    """The middle frame of the clip as points; None where one frame alone does not tell depth or objects.
+    """The frame on show (else the middle one) as points; None where one frame alone does not tell depth or objects.
 
     Raises GenmojoError for a clip that cannot be read.
     """
     clip = folders.read(request.clip, frames=request.frames, short_side=SHORT_SIDE, ignore=request.ignore,
                         pixel_aspect=request.pixel_aspect)  # fmt: skip
-    t = len(clip) // 2
+    t = len(clip) // 2 if request.look_at is None else min(max(request.look_at, 0), len(clip) - 1)
     first = request.frames[0] if request.frames else 0
     one = folders.read(request.clip, frames=(first + t, first + t + 1), short_side=SHORT_SIDE, ignore=request.ignore,
                        pixel_aspect=request.pixel_aspect)  # fmt: skip
