@@ -84,7 +84,7 @@ class RunConfig:
         return asdict(self)
 
 
-# draft: 192 px, because frames kept at 128 px and enlarged to 256 reach 24.6 dB at best on the clip "crossing".
+# draft: 224 px, because frames kept at 128 px and enlarged to 256 reach 24.6 dB at best on the clip "crossing".
 PRESETS: dict[str, RunConfig] = {
     "draft": RunConfig(
         preset="draft", short_side=224, gaussians_per_object=2000, background_gaussians=14000, lift_steps=60,

@@ -17,7 +17,7 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.estimate.background_points import PointPaths, drift, follow_background
 from genmojo_core.estimate.bundle import Bundle, adjust, cost, errors, world_points
 
-FOVY = 49.1  # degrees; METHOD.md section 2, used where nothing better is known
+FIELD_OF_VIEW = 49.1  # degrees of the longer side, where nothing better is known; METHOD.md section 2 (square images)
 _STILL_SHARE = 0.004  # of the short side: a background that goes less far over the whole clip means a still camera
 _FEWEST_POINTS = 12  # of a frame
 _CLEARLY_BETTER = 0.6  # share of the turning camera's error that a moving one must stay under
@@ -54,10 +54,11 @@ class Believed:
     valid: np.ndarray
 
 
-def default_intrinsics(clip: Clip, fovy: float = FOVY) -> np.ndarray:  # (3, 3)
-    """K of the frames held for a vertical field of view in degrees; pixels may be oblong: fx = fy / pixel aspect."""
+def default_intrinsics(clip: Clip, field_of_view: float = FIELD_OF_VIEW) -> np.ndarray:  # (3, 3)
+    """K of the frames held for the longer side's field of view in degrees; pixels may be oblong: fx = fy / aspect."""
     width, height = clip.size
-    fy = 0.5 * height / np.tan(np.deg2rad(fovy) / 2)
+    longer = max(width * clip.held_pixel_aspect, height)
+    fy = 0.5 * longer / np.tan(np.deg2rad(field_of_view) / 2)
     return np.array([[fy / clip.held_pixel_aspect, 0, width / 2], [0, fy, height / 2], [0, 0, 1.0]])
 
 

@@ -22,7 +22,8 @@ def reconstruction(scene: BakedScene, clip: Clip, progress: Callable[[float], No
         psnr: foreground = union of the masks, per frame, then mean over the frames that show an object.
         psnr_full: all pixels. ssim: all pixels. instance_iou: mean over frames and objects whose mask is not empty,
         of the rendered instance map (largest share where alpha > 0.5); void pixels count nowhere.
-        psnr_without_color, color_share_db: psnr with the change of colour over time dropped, and what that costs.
+        light_share_db: psnr gained by the light's change over time (one gain per frame and channel).
+        color_share_db: psnr gained on top by Gaussians that change colour each on its own: motion explained by colour.
     Raises GenmojoError("schema") if the clip has not the scene's frames or size.
     """
     positions = matching_frames(scene, clip)
@@ -35,15 +36,16 @@ def reconstruction(scene: BakedScene, clip: Clip, progress: Callable[[float], No
         foreground = foreground_of(clip, int(place))
         row = {"psnr": psnr(drawn, image, foreground), "psnr_full": psnr(drawn, image), "ssim": ssim(drawn, image)}
         if scene.d_dc is not None:
-            plain = picture_at(scene, t, clip.size, Look(color_change=False)).on()
-            row["psnr_without_color"] = psnr(plain, image, foreground)
+            for change in ("light", "none"):
+                changed = picture_at(scene, t, clip.size, Look(color_change=change)).on()
+                row[change] = psnr(changed, image, foreground)
         rows.append(row)
         ious.append(_overlaps(scene, clip, int(place), picture))
         if progress is not None:
             progress((t + 1) / len(positions))
     figures = {key: _mean([row[key] for row in rows]) for key in rows[0]}
-    figures.setdefault("psnr_without_color", figures["psnr"])
-    figures["color_share_db"] = figures["psnr"] - figures["psnr_without_color"]
+    light, none = (figures.pop(change, figures["psnr"]) for change in ("light", "none"))
+    figures["color_share_db"], figures["light_share_db"] = figures["psnr"] - light, light - none
     figures["instance_iou"] = _mean(list(np.concatenate(ious))) if ious else float("nan")
     return figures
 

@@ -145,6 +145,7 @@ def _novel_row(scene: BakedScene, t: int, view: View, path: Path) -> dict[str, f
     return {
         "iou": iou(alpha > _SILHOUETTE, picture.alpha > _SILHOUETTE),
         "psnr_inside": psnr(straight, color / np.maximum(alpha, 1e-6)[..., None], both),
+        "psnr_union": psnr(picture.on(), on_white, (alpha > _SILHOUETTE) | (picture.alpha > _SILHOUETTE)),
         "psnr_white": psnr(picture.on(), on_white),
         "ssim_white": ssim(picture.on(), on_white),
     }

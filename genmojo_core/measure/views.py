@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -64,17 +65,18 @@ class Picture:
 
 @dataclass(frozen=True)
 class Look:
-    """What to draw: everything or the objects alone, with the learned colour change or without, flow to which view.
+    """What to draw: everything or the objects alone, which change of colour over time, flow to which view.
 
     Args:
         objects_only: leave the background out.
-        color_change: False drops the change of colour over time (to see how much of the fit it explains).
+        color_change: "all"; "light" keeps only one gain per frame and channel for the whole scene; "none" drops it (to
+            see how much of the fit each explains).
         flow_to: camera of the next frame, or None for no flow.
         normals: also draw normals.
     """
 
     objects_only: bool = False
-    color_change: bool = True
+    color_change: Literal["all", "light", "none"] = "all"
     flow_to: View | None = None
     normals: bool = False
 
@@ -93,7 +95,7 @@ def render_frame(scene: BakedScene, t: float, view: View, look: Look = Look()) -
     owner = frame.object_index
     background = np.array([o.is_background for o in scene.objects])
     keep = ~background[owner] if look.objects_only else np.ones(len(owner), bool)
-    rgb = frame.rgb if look.color_change or scene.d_dc is None else _constant_color(scene)
+    rgb = _colors(scene, frame, look)
     parts = [rgb, np.eye(len(scene.objects), dtype=np.float32)[owner]]
     if look.flow_to is not None:
         after = scene.frame_at(min(t + 1, len(scene) - 1))
@@ -140,9 +142,20 @@ def short_side_size(size: tuple[int, int], short_side: int) -> tuple[int, int]:
     return max(1, round(size[0] * scale)), max(1, round(size[1] * scale))
 
 
-def _constant_color(scene: BakedScene) -> np.ndarray:
-    """Colours without their change over time."""
-    return dc_to_rgb(scene.dc)
+def _colors(scene: BakedScene, frame: Frame, look: Look) -> np.ndarray:  # (N, 3) 0..1 and more
+    """Colours with the change over time that is wanted.
+
+    Light is the gain g of every channel that brings the colours of no change nearest to the frame's: least squares,
+    every Gaussian weighted by its opacity.
+    """
+    if scene.d_dc is None or look.color_change == "all":
+        return frame.rgb
+    constant = dc_to_rgb(scene.dc)
+    if look.color_change == "none":
+        return constant
+    weighted = frame.opacities[:, None] * constant
+    gain = (weighted * frame.rgb).sum(axis=0) / np.maximum((weighted * constant).sum(axis=0), 1e-9)
+    return constant * gain
 
 
 def _normals(frame: Frame, view: View) -> np.ndarray:  # (N, 3)

@@ -160,7 +160,7 @@ def crossing_draft(bench: Bench, key: str) -> list[Check]:
         Check("psnr", scores.result["psnr"], 22),
         Check("psnr_full", scores.result["psnr_full"], 26),
         *costs(call),
-        *reported(scores, "instance_iou", "ssim", "color_share_db"),
+        *reported(scores, "instance_iou", "ssim", "color_share_db", "light_share_db"),
     ]
 
 
@@ -173,7 +173,7 @@ def standard(name: str) -> Callable[[Bench, str], list[Check]]:
             Check("wall s", call.seconds, 720, at_most=True),
             Check("psnr", scores.result["psnr"], 25.56),
             *costs(call),
-            *reported(scores, "psnr_full", "instance_iou", "ssim", "color_share_db", "psnr_without_color"),
+            *reported(scores, "psnr_full", "instance_iou", "ssim", "color_share_db", "light_share_db"),
         ]
 
     return row
@@ -194,7 +194,16 @@ def blender(name: str, ate: float, mte: float) -> Callable[[Bench, str], list[Ch
             Check("wall s", call.seconds, 720, at_most=True),
             *costs(call),
             *reported(tracks, "hidden", "a_epe", "m_epe", "aj", "delta", "oa"),
-            *reported(scores, "ate_3d", "extent_3d", "psnr_full", "novel_iou", "novel_psnr_inside", "color_share_db"),
+            *reported(
+                scores,
+                "ate_3d",
+                "extent_3d",
+                "psnr_full",
+                "novel_iou",
+                "novel_psnr_inside",
+                "color_share_db",
+                "light_share_db",
+            ),
         ]
 
     return row

@@ -137,7 +137,7 @@ def test_one_and_two_frames(count):
 def test_oblong_pixels_get_two_focal_lengths():
     clip = clip_of(np.zeros((1, 512, 512, 3), np.uint8)).with_channels(pixel_aspect=854 / 480)
     lens = default_intrinsics(clip)
-    assert lens[1, 1] == pytest.approx(256 / np.tan(np.deg2rad(49.1 / 2)))
+    assert lens[1, 1] == pytest.approx(256 * 854 / 480 / np.tan(np.deg2rad(49.1 / 2)))
     assert lens[0, 0] == pytest.approx(lens[1, 1] / (854 / 480))
     assert lens[0, 2] == 256 and lens[1, 2] == 256
 

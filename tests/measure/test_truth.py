@@ -9,6 +9,7 @@ import pytest
 from scenes import small_scene
 
 from genmojo_core.clip.clip import Channel, Clip
+from genmojo_core.conventions import SH_C0
 from genmojo_core.errors import GenmojoError
 from genmojo_core.measure import truth
 from genmojo_core.measure.reconstruction import matching_frames, reconstruction
@@ -75,10 +76,18 @@ def test_each_fault_of_a_scene_shows(scene, clip):
     one, two = scene.objects[1:]
     swapped = replace(scene, objects=(scene.objects[0], replace(one, id=2), replace(two, id=1)))
     assert reconstruction(swapped, clip)["instance_iou"] == 0
-    change = np.full((4, len(scene.xyz), 3), 0.5, np.float32)
-    painted = replace(scene, dc=scene.dc - 0.5, d_dc=change)
+    change = np.random.default_rng(0).choice([-0.5, 0.5], size=scene.dc.shape).astype(np.float32)
+    painted = replace(scene, dc=scene.dc - change, d_dc=np.tile(change, (4, 1, 1)))
     found = reconstruction(painted, clip)
-    assert found["psnr"] > 45 and found["color_share_db"] > 20 and found["psnr_without_color"] < 22
+    assert found["psnr"] > 45 and found["color_share_db"] > 20
+
+
+def test_a_change_of_light_is_not_a_change_of_colour(scene, clip):
+    """Half the colour everywhere, made good by one gain: light_share_db, not color_share_db."""
+    dark = ((0.5 * (0.5 + SH_C0 * scene.dc)) - 0.5) / SH_C0
+    lit = replace(scene, dc=dark.astype(np.float32), d_dc=np.tile((scene.dc - dark).astype(np.float32), (4, 1, 1)))
+    found = reconstruction(lit, clip)
+    assert found["psnr"] > 45 and abs(found["color_share_db"]) < 0.01 and found["light_share_db"] > 5
 
 
 def test_foreground_is_the_masks(scene, clip):

@@ -95,7 +95,7 @@ def test_colour_change_can_be_dropped():
     changed = replace(scene, d_dc=d_dc)
     view = scene.cameras.view(2)
     plain = render_frame(scene, 2, view).on()
-    np.testing.assert_array_equal(render_frame(changed, 2, view, Look(color_change=False)).on(), plain)
+    np.testing.assert_array_equal(render_frame(changed, 2, view, Look(color_change="none")).on(), plain)
     assert np.abs(render_frame(changed, 2, view).on() - plain).mean() > 0.02
 
 
