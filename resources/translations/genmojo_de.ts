@@ -1,0 +1,2935 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de" sourcelanguage="en">
+  <context>
+    <name>studio</name>
+    <message>
+      <source>The app is under the MIT licence. It contains no code of the Inria rasteriser or of CoTracker; models that you connect yourself have licences of their own.</source>
+      <translation>Die App steht unter der MIT-Lizenz. Sie enthält keinen Code des Inria-Rasterisierers oder von CoTracker; Modelle, die Sie selbst anschließen, haben eigene Lizenzen.</translation>
+    </message>
+    <message>
+      <source>About and licences</source>
+      <translation>Über und Lizenzen</translation>
+    </message>
+    <message>
+      <source>Parts</source>
+      <translation>Bestandteile</translation>
+    </message>
+    <message>
+      <source>Marked: frames {a} to {b}. A state or X applies to them.</source>
+      <translation>Markiert: Bilder {a} bis {b}. Ein Zustand oder X gilt für sie.</translation>
+    </message>
+    <message>
+      <source>Buttons of this step</source>
+      <translation>Knöpfe dieses Schritts</translation>
+    </message>
+    <message>
+      <source>Stride in frames</source>
+      <translation>Schrittweite in Bildern</translation>
+    </message>
+    <message>
+      <source>stride</source>
+      <translation>Schrittweite</translation>
+    </message>
+    <message>
+      <source>This step is done.</source>
+      <translation>Dieser Schritt ist fertig.</translation>
+    </message>
+    <message>
+      <source>Done.</source>
+      <translation>Fertig.</translation>
+    </message>
+    <message>
+      <source>Frame with points</source>
+      <translation>Bild mit Punkten</translation>
+    </message>
+    <message>
+      <source>Open a clip to begin</source>
+      <translation>Öffnen Sie einen Clip, um zu beginnen</translation>
+    </message>
+    <message>
+      <source>What is wrong?</source>
+      <translation>Was stimmt nicht?</translation>
+    </message>
+    <message>
+      <source>Swap</source>
+      <translation>Tauschen</translation>
+    </message>
+    <message>
+      <source>From this frame on, swap with</source>
+      <translation>Ab diesem Bild tauschen mit</translation>
+    </message>
+    <message>
+      <source>Name this moment</source>
+      <translation>Diesen Stand benennen</translation>
+    </message>
+    <message>
+      <source>Name</source>
+      <translation>Name</translation>
+    </message>
+    <message>
+      <source>Named moments</source>
+      <translation>Benannte Stände</translation>
+    </message>
+    <message>
+      <source>Go back to</source>
+      <translation>Zurück zu</translation>
+    </message>
+    <message>
+      <source>Export tracks</source>
+      <translation>Spuren exportieren</translation>
+    </message>
+    <message>
+      <source>No moment has a name yet (Ctrl+S).</source>
+      <translation>Noch kein Stand hat einen Namen (Strg+S).</translation>
+    </message>
+    <message>
+      <source>There are no masks yet: make one in step 1.</source>
+      <translation>Noch keine Masken: legen Sie in Schritt 1 eine an.</translation>
+    </message>
+    <message>
+      <source>Named: {name}</source>
+      <translation>Benannt: {name}</translation>
+    </message>
+    <message>
+      <source>Back at: </source>
+      <translation>Zurück bei: </translation>
+    </message>
+    <message>
+      <source>Dope sheet: states of all points over time</source>
+      <translation>Zeitübersicht: Zustände aller Punkte</translation>
+    </message>
+    <message>
+      <source>not annotated</source>
+      <translation>nicht annotiert</translation>
+    </message>
+    <message>
+      <source>visible</source>
+      <translation>sichtbar</translation>
+    </message>
+    <message>
+      <source>occluded</source>
+      <translation>verdeckt</translation>
+    </message>
+    <message>
+      <source>out of view</source>
+      <translation>außerhalb</translation>
+    </message>
+    <message>
+      <source>No points yet: place them in step 2.</source>
+      <translation>Noch keine Punkte: setzen Sie sie in Schritt 2.</translation>
+    </message>
+    <message>
+      <source>frame</source>
+      <translation>Bild</translation>
+    </message>
+    <message>
+      <source>key</source>
+      <translation>Schlüssel</translation>
+    </message>
+    <message>
+      <source>All points are placed. Seed the tracks now (Ctrl+G).</source>
+      <translation>Alle Punkte sind gesetzt. Verfolgen Sie sie jetzt (Strg+G).</translation>
+    </message>
+    <message>
+      <source>No more keys that way.</source>
+      <translation>In dieser Richtung gibt es keine Schlüssel mehr.</translation>
+    </message>
+    <message>
+      <source>Nothing suspicious is left.</source>
+      <translation>Nichts Verdächtiges mehr.</translation>
+    </message>
+    <message>
+      <source>Curve</source>
+      <translation>Kurve</translation>
+    </message>
+    <message>
+      <source>Curve over frames</source>
+      <translation>Kurve über die Bilder</translation>
+    </message>
+    <message>
+      <source>x</source>
+      <translation>x</translation>
+    </message>
+    <message>
+      <source>y</source>
+      <translation>y</translation>
+    </message>
+    <message>
+      <source>speed (px per frame)</source>
+      <translation>Geschwindigkeit (px je Bild)</translation>
+    </message>
+    <message>
+      <source>acceleration</source>
+      <translation>Beschleunigung</translation>
+    </message>
+    <message>
+      <source>confidence</source>
+      <translation>Sicherheit</translation>
+    </message>
+    <message>
+      <source>suspicion</source>
+      <translation>Verdacht</translation>
+    </message>
+    <message>
+      <source>forward-backward error (px)</source>
+      <translation>Hin-und-zurück-Fehler (px)</translation>
+    </message>
+    <message>
+      <source>likeness (NCC)</source>
+      <translation>Ähnlichkeit (NCC)</translation>
+    </message>
+    <message>
+      <source>Log and statistics</source>
+      <translation>Protokoll und Statistik</translation>
+    </message>
+    <message>
+      <source>Clip</source>
+      <translation>Clip</translation>
+    </message>
+    <message>
+      <source>person</source>
+      <translation>Person</translation>
+    </message>
+    <message>
+      <source>edits</source>
+      <translation>Änderungen</translation>
+    </message>
+    <message>
+      <source>keys</source>
+      <translation>Schlüssel</translation>
+    </message>
+    <message>
+      <source>minutes</source>
+      <translation>Minuten</translation>
+    </message>
+    <message>
+      <source>sent back</source>
+      <translation>zurückgegeben</translation>
+    </message>
+    <message>
+      <source>Time sheet</source>
+      <translation>Zeitaufwand</translation>
+    </message>
+    <message>
+      <source>Audit log</source>
+      <translation>Protokoll der Änderungen</translation>
+    </message>
+    <message>
+      <source>Names and times are exported: consent is given.</source>
+      <translation>Namen und Zeiten werden exportiert: die Einwilligung liegt vor.</translation>
+    </message>
+    <message>
+      <source>Names and times stay out of the export: no consent is given (step 4).</source>
+      <translation>Namen und Zeiten bleiben aus dem Export: keine Einwilligung (Schritt 4).</translation>
+    </message>
+    <message>
+      <source>Export the log…</source>
+      <translation>Protokoll exportieren…</translation>
+    </message>
+    <message>
+      <source>Export the log</source>
+      <translation>Protokoll exportieren</translation>
+    </message>
+    <message>
+      <source>figure</source>
+      <translation>Kennzahl</translation>
+    </message>
+    <message>
+      <source>value</source>
+      <translation>Wert</translation>
+    </message>
+    <message>
+      <source>what</source>
+      <translation>was</translation>
+    </message>
+    <message>
+      <source>who</source>
+      <translation>wer</translation>
+    </message>
+    <message>
+      <source>when</source>
+      <translation>wann</translation>
+    </message>
+    <message>
+      <source>previous key</source>
+      <translation>voriger Schlüssel</translation>
+    </message>
+    <message>
+      <source>first frame</source>
+      <translation>erstes Bild</translation>
+    </message>
+    <message>
+      <source>difference</source>
+      <translation>Differenz</translation>
+    </message>
+    <message>
+      <source>now</source>
+      <translation>jetzt</translation>
+    </message>
+    <message>
+      <source>Cut out</source>
+      <translation>Ausschneiden</translation>
+    </message>
+    <message>
+      <source>Choose {name}</source>
+      <translation>{name} wählen</translation>
+    </message>
+    <message>
+      <source>very small</source>
+      <translation>sehr klein</translation>
+    </message>
+    <message>
+      <source>hardly moves</source>
+      <translation>bewegt sich kaum</translation>
+    </message>
+    <message>
+      <source>seen in few frames</source>
+      <translation>in wenigen Bildern zu sehen</translation>
+    </message>
+    <message>
+      <source>Median share of the frame</source>
+      <translation>Mittlerer Anteil am Bild</translation>
+    </message>
+    <message>
+      <source>Pixels per frame at 1080 lines</source>
+      <translation>Pixel je Bild bei 1080 Zeilen</translation>
+    </message>
+    <message>
+      <source>Share of frames in which it is seen; of those, in which it is partly hidden</source>
+      <translation>Anteil der Bilder, in denen es zu sehen ist; davon die, in denen es teils verdeckt ist</translation>
+    </message>
+    <message>
+      <source>Candidate objects</source>
+      <translation>Mögliche Objekte</translation>
+    </message>
+    <message>
+      <source>too small</source>
+      <translation>zu klein</translation>
+    </message>
+    <message>
+      <source>does not move</source>
+      <translation>bewegt sich nicht</translation>
+    </message>
+    <message>
+      <source>hidden too often</source>
+      <translation>zu oft verdeckt</translation>
+    </message>
+    <message>
+      <source>not an object</source>
+      <translation>kein Objekt</translation>
+    </message>
+    <message>
+      <source>enough objects</source>
+      <translation>genug Objekte</translation>
+    </message>
+    <message>
+      <source>Reason for leaving it out</source>
+      <translation>Grund für das Weglassen</translation>
+    </message>
+    <message>
+      <source>Reject {name}</source>
+      <translation>{name} verwerfen</translation>
+    </message>
+    <message>
+      <source>Order of objects</source>
+      <translation>Reihenfolge der Objekte</translation>
+    </message>
+    <message>
+      <source>chosen</source>
+      <translation>gewählt</translation>
+    </message>
+    <message>
+      <source>?</source>
+      <translation>?</translation>
+    </message>
+    <message>
+      <source>left out</source>
+      <translation>weggelassen</translation>
+    </message>
+    <message>
+      <source>object</source>
+      <translation>Objekt</translation>
+    </message>
+    <message>
+      <source>choice</source>
+      <translation>Wahl</translation>
+    </message>
+    <message>
+      <source>size</source>
+      <translation>Größe</translation>
+    </message>
+    <message>
+      <source>motion</source>
+      <translation>Bewegung</translation>
+    </message>
+    <message>
+      <source>seen / cut</source>
+      <translation>gesehen / angeschnitten</translation>
+    </message>
+    <message>
+      <source>Choose</source>
+      <translation>Wählen</translation>
+    </message>
+    <message>
+      <source>Leave out:</source>
+      <translation>Weglassen:</translation>
+    </message>
+    <message>
+      <source>Earlier</source>
+      <translation>Früher</translation>
+    </message>
+    <message>
+      <source>Later</source>
+      <translation>Später</translation>
+    </message>
+    <message>
+      <source>Add by</source>
+      <translation>Hinzufügen durch</translation>
+    </message>
+    <message>
+      <source>box</source>
+      <translation>Rechteck</translation>
+    </message>
+    <message>
+      <source>Draw a rectangle around the object</source>
+      <translation>Ziehen Sie ein Rechteck um das Objekt</translation>
+    </message>
+    <message>
+      <source>click / scribble</source>
+      <translation>Klick / Strich</translation>
+    </message>
+    <message>
+      <source>Click on it or draw over it</source>
+      <translation>Klicken Sie darauf oder malen Sie darüber</translation>
+    </message>
+    <message>
+      <source>not this</source>
+      <translation>das nicht</translation>
+    </message>
+    <message>
+      <source>Draw over what is not part of it</source>
+      <translation>Malen Sie über das, was nicht dazugehört</translation>
+    </message>
+    <message>
+      <source>Name {name}</source>
+      <translation>{name} benennen</translation>
+    </message>
+    <message>
+      <source>{n} of at most {most} objects chosen.</source>
+      <translation>{n} von höchstens {most} Objekten gewählt.</translation>
+    </message>
+    <message>
+      <source>object {n}</source>
+      <translation>Objekt {n}</translation>
+    </message>
+    <message>
+      <source>There are {n} objects already; reject one first.</source>
+      <translation>Es sind schon {n} Objekte; verwerfen Sie erst eines.</translation>
+    </message>
+    <message>
+      <source>Dope sheet</source>
+      <translation>Zeitübersicht</translation>
+    </message>
+    <message>
+      <source>Graphs</source>
+      <translation>Kurven</translation>
+    </message>
+    <message>
+      <source>State that a drag paints</source>
+      <translation>Zustand, den Ziehen malt</translation>
+    </message>
+    <message>
+      <source>worst first</source>
+      <translation>schlechteste zuerst</translation>
+    </message>
+    <message>
+      <source>Order the rows by suspicion</source>
+      <translation>Zeilen nach Verdacht ordnen</translation>
+    </message>
+    <message>
+      <source>Speed</source>
+      <translation>Tempo</translation>
+    </message>
+    <message>
+      <source>drag paints</source>
+      <translation>Ziehen malt</translation>
+    </message>
+    <message>
+      <source>frame {n} of {last}   {s:.2f} s</source>
+      <translation>Bild {n} von {last}   {s:.2f} s</translation>
+    </message>
+    <message>
+      <source>Template of point names</source>
+      <translation>Vorlage für Punktnamen</translation>
+    </message>
+    <message>
+      <source>How well the place under the mouse can be followed</source>
+      <translation>Wie gut die Stelle unter der Maus verfolgt werden kann</translation>
+    </message>
+    <message>
+      <source>Seed tracks…</source>
+      <translation>Spuren vorschlagen…</translation>
+    </message>
+    <message>
+      <source>A click moves {point}.</source>
+      <translation>Ein Klick verschiebt {point}.</translation>
+    </message>
+    <message>
+      <source>A click places {point}.</source>
+      <translation>Ein Klick setzt {point}.</translation>
+    </message>
+    <message>
+      <source>Names</source>
+      <translation>Namen</translation>
+    </message>
+    <message>
+      <source>Trackable</source>
+      <translation>Verfolgbar</translation>
+    </message>
+    <message>
+      <source>Choose objects in step 1 first.</source>
+      <translation>Wählen Sie zuerst in Schritt 1 Objekte.</translation>
+    </message>
+    <message>
+      <source>Name points</source>
+      <translation>Punkte benennen</translation>
+    </message>
+    <message>
+      <source>Suspicious spots, worst first</source>
+      <translation>Verdächtige Stellen, schlechteste zuerst</translation>
+    </message>
+    <message>
+      <source>a person</source>
+      <translation>ein Mensch</translation>
+    </message>
+    <message>
+      <source>tracker</source>
+      <translation>Verfolger</translation>
+    </message>
+    <message>
+      <source>flow</source>
+      <translation>Fluss</translation>
+    </message>
+    <message>
+      <source>line</source>
+      <translation>Gerade</translation>
+    </message>
+    <message>
+      <source>import</source>
+      <translation>Import</translation>
+    </message>
+    <message>
+      <source>hold</source>
+      <translation>gehalten</translation>
+    </message>
+    <message>
+      <source>note about this track</source>
+      <translation>Notiz zu dieser Spur</translation>
+    </message>
+    <message>
+      <source>nothing</source>
+      <translation>nichts</translation>
+    </message>
+    <message>
+      <source>Note</source>
+      <translation>Notiz</translation>
+    </message>
+    <message>
+      <source>Queue: {n} left (N goes to the next)</source>
+      <translation>Liste: noch {n} (N geht zur nächsten)</translation>
+    </message>
+    <message>
+      <source>place</source>
+      <translation>Stelle</translation>
+    </message>
+    <message>
+      <source>state</source>
+      <translation>Zustand</translation>
+    </message>
+    <message>
+      <source>made by</source>
+      <translation>gemacht von</translation>
+    </message>
+    <message>
+      <source>why</source>
+      <translation>warum</translation>
+    </message>
+    <message>
+      <source>note</source>
+      <translation>Notiz</translation>
+    </message>
+    <message>
+      <source>accepted</source>
+      <translation>angenommen</translation>
+    </message>
+    <message>
+      <source>uncertain</source>
+      <translation>unsicher</translation>
+    </message>
+    <message>
+      <source>snapped</source>
+      <translation>eingerastet</translation>
+    </message>
+    <message>
+      <source>Reviewer</source>
+      <translation>Prüfer</translation>
+    </message>
+    <message>
+      <source>Time and effort may be exported</source>
+      <translation>Zeit und Aufwand dürfen exportiert werden</translation>
+    </message>
+    <message>
+      <source>History of the track</source>
+      <translation>Verlauf der Spur</translation>
+    </message>
+    <message>
+      <source>What is wrong</source>
+      <translation>Was stimmt nicht</translation>
+    </message>
+    <message>
+      <source>your name</source>
+      <translation>Ihr Name</translation>
+    </message>
+    <message>
+      <source>Approve</source>
+      <translation>Freigeben</translation>
+    </message>
+    <message>
+      <source>Needs a fix:</source>
+      <translation>Nacharbeit nötig:</translation>
+    </message>
+    <message>
+      <source>what is wrong there</source>
+      <translation>was dort nicht stimmt</translation>
+    </message>
+    <message>
+      <source>Second annotator…</source>
+      <translation>Zweiter Annotator…</translation>
+    </message>
+    <message>
+      <source>Log, statistics…</source>
+      <translation>Protokoll, Statistik…</translation>
+    </message>
+    <message>
+      <source>No tracks yet.</source>
+      <translation>Noch keine Spuren.</translation>
+    </message>
+    <message>
+      <source>Returned to {name}: {reason}</source>
+      <translation>An {name} zurückgegeben: {reason}</translation>
+    </message>
+    <message>
+      <source>frames {a} to {b}</source>
+      <translation>Bilder {a} bis {b}</translation>
+    </message>
+    <message>
+      <source>frame {a}; [ and ] mark more</source>
+      <translation>Bild {a}; [ und ] markieren mehr</translation>
+    </message>
+    <message>
+      <source>its annotator</source>
+      <translation>ihren Annotator</translation>
+    </message>
+    <message>
+      <source>Seed tracks</source>
+      <translation>Spuren vorschlagen</translation>
+    </message>
+    <message>
+      <source>Your keys, accepted places and painted states stay as they are.</source>
+      <translation>Ihre Schlüssel, angenommene Stellen und gemalte Zustände bleiben, wie sie sind.</translation>
+    </message>
+    <message>
+      <source>Seed</source>
+      <translation>Vorschlagen</translation>
+    </message>
+    <message>
+      <source>all objects</source>
+      <translation>alle Objekte</translation>
+    </message>
+    <message>
+      <source>the active object only</source>
+      <translation>nur das aktive Objekt</translation>
+    </message>
+    <message>
+      <source>Undone: {title}</source>
+      <translation>Zurückgenommen: {title}</translation>
+    </message>
+    <message>
+      <source>Done again: {title}</source>
+      <translation>Wiederholt: {title}</translation>
+    </message>
+    <message>
+      <source>Nothing more to take back or do again.</source>
+      <translation>Nichts mehr zurückzunehmen oder zu wiederholen.</translation>
+    </message>
+    <message>
+      <source>Choose at least one object.</source>
+      <translation>Wählen Sie mindestens ein Objekt.</translation>
+    </message>
+    <message>
+      <source>Give every chosen object a name.</source>
+      <translation>Geben Sie jedem gewählten Objekt einen Namen.</translation>
+    </message>
+    <message>
+      <source>{n} candidates are neither chosen nor rejected.</source>
+      <translation>{n} Kandidaten sind weder gewählt noch verworfen.</translation>
+    </message>
+    <message>
+      <source>{n} points are still to be placed.</source>
+      <translation>{n} Punkte sind noch zu setzen.</translation>
+    </message>
+    <message>
+      <source>{n} tracks are not seeded.</source>
+      <translation>{n} Spuren haben keinen Vorschlag.</translation>
+    </message>
+    <message>
+      <source>{n} tracks came back from the review.</source>
+      <translation>{n} Spuren kamen aus der Prüfung zurück.</translation>
+    </message>
+    <message>
+      <source>{n} points in frames of the stride are not accepted.</source>
+      <translation>{n} Punkte in Bildern der Schrittweite sind nicht angenommen.</translation>
+    </message>
+    <message>
+      <source>{n} tracks wait for a decision.</source>
+      <translation>{n} Spuren warten auf eine Entscheidung.</translation>
+    </message>
+    <message>
+      <source>Stabilised strip of the active point</source>
+      <translation>Stabilisierter Streifen des aktiven Punkts</translation>
+    </message>
+    <message>
+      <source>The active point has no track yet.</source>
+      <translation>Der aktive Punkt hat noch keine Spur.</translation>
+    </message>
+    <message>
+      <source>End the tour</source>
+      <translation>Rundgang beenden</translation>
+    </message>
+    <message>
+      <source>Back</source>
+      <translation>Zurück</translation>
+    </message>
+    <message>
+      <source>Next</source>
+      <translation>Weiter</translation>
+    </message>
+    <message>
+      <source>Done</source>
+      <translation>Fertig</translation>
+    </message>
+    <message>
+      <source>none</source>
+      <translation>keiner</translation>
+    </message>
+    <message>
+      <source>draft</source>
+      <translation>Entwurf</translation>
+    </message>
+    <message>
+      <source>in progress</source>
+      <translation>in Arbeit</translation>
+    </message>
+    <message>
+      <source>needs a fix</source>
+      <translation>Nacharbeit nötig</translation>
+    </message>
+    <message>
+      <source>fixed</source>
+      <translation>behoben</translation>
+    </message>
+    <message>
+      <source>approved</source>
+      <translation>freigegeben</translation>
+    </message>
+    <message>
+      <source>rejected</source>
+      <translation>verworfen</translation>
+    </message>
+    <message>
+      <source>doubt</source>
+      <translation>Zweifel</translation>
+    </message>
+    <message>
+      <source>review</source>
+      <translation>Prüfung</translation>
+    </message>
+    <message>
+      <source>placed</source>
+      <translation>gesetzt</translation>
+    </message>
+    <message>
+      <source>Objects and points</source>
+      <translation>Objekte und Punkte</translation>
+    </message>
+    <message>
+      <source>point</source>
+      <translation>Punkt</translation>
+    </message>
+    <message>
+      <source>frame {n}</source>
+      <translation>Bild {n}</translation>
+    </message>
+    <message>
+      <source>The clip is still being read.</source>
+      <translation>Der Clip wird noch gelesen.</translation>
+    </message>
+    <message>
+      <source>There are no masks to track in: make one in step 1.</source>
+      <translation>Es gibt keine Masken, in denen verfolgt werden kann: legen Sie in Schritt 1 eine an.</translation>
+    </message>
+    <message>
+      <source>Solving …</source>
+      <translation>Wird gelöst …</translation>
+    </message>
+    <message>
+      <source>Seeding {n} tracks …</source>
+      <translation>{n} Spuren werden vorgeschlagen …</translation>
+    </message>
+    <message>
+      <source>Place this point first.</source>
+      <translation>Setzen Sie zuerst diesen Punkt.</translation>
+    </message>
+    <message>
+      <source>Carried on from x {x:.1f}, y {y:.1f}.</source>
+      <translation>Fortgesetzt von x {x:.1f}, y {y:.1f}.</translation>
+    </message>
+    <message>
+      <source>Seed {n} tracks</source>
+      <translation>{n} Spuren vorschlagen</translation>
+    </message>
+    <message>
+      <source>Choose an object first (step 1).</source>
+      <translation>Wählen Sie zuerst ein Objekt (Schritt 1).</translation>
+    </message>
+    <message>
+      <source>Look at this point, then press Enter again.</source>
+      <translation>Sehen Sie diesen Punkt an und drücken Sie noch einmal Enter.</translation>
+    </message>
+    <message>
+      <source>Unlock</source>
+      <translation>Entsperren</translation>
+    </message>
+    <message>
+      <source>Lock</source>
+      <translation>Sperren</translation>
+    </message>
+    <message>
+      <source>This segment is filled by: {mode}</source>
+      <translation>Dieser Abschnitt wird gefüllt durch: {mode}</translation>
+    </message>
+    <message>
+      <source>Place point {n} of {name}</source>
+      <translation>Punkt {n} von {name} setzen</translation>
+    </message>
+    <message>
+      <source>Cutting the object out of every frame …</source>
+      <translation>Das Objekt wird aus jedem Bild geschnitten …</translation>
+    </message>
+    <message>
+      <source>Reading the clip …</source>
+      <translation>Der Clip wird gelesen …</translation>
+    </message>
+    <message>
+      <source>{n} strokes; press Cut out.</source>
+      <translation>{n} Striche; drücken Sie Ausschneiden.</translation>
+    </message>
+    <message>
+      <source>Draw something first.</source>
+      <translation>Malen Sie zuerst etwas.</translation>
+    </message>
+    <message>
+      <source>Candidates from the masks</source>
+      <translation>Kandidaten aus den Masken</translation>
+    </message>
+    <message>
+      <source>Cut out {name}</source>
+      <translation>{name} ausschneiden</translation>
+    </message>
+    <message>
+      <source>Steps</source>
+      <translation>Schritte</translation>
+    </message>
+    <message>
+      <source>Open a clip to annotate it (Ctrl+O).</source>
+      <translation>Öffnen Sie einen Clip, um ihn zu annotieren (Strg+O).</translation>
+    </message>
+    <message>
+      <source>read only</source>
+      <translation>nur lesen</translation>
+    </message>
+    <message>
+      <source>saved</source>
+      <translation>gespeichert</translation>
+    </message>
+    <message>
+      <source>Information</source>
+      <translation>Information</translation>
+    </message>
+    <message>
+      <source>saved in {ms:.0f} ms</source>
+      <translation>gespeichert in {ms:.0f} ms</translation>
+    </message>
+    <message>
+      <source>Workspaces</source>
+      <translation>Arbeitsbereiche</translation>
+    </message>
+    <message>
+      <source>Find a command…  Ctrl+K</source>
+      <translation>Befehl suchen…  Strg+K</translation>
+    </message>
+    <message>
+      <source>Start</source>
+      <translation>Start</translation>
+    </message>
+    <message>
+      <source>The start page</source>
+      <translation>Die Startseite</translation>
+    </message>
+    <message>
+      <source>Annotate</source>
+      <translation>Annotieren</translation>
+    </message>
+    <message>
+      <source>Points and masks by hand (Ctrl+1)</source>
+      <translation>Punkte und Masken von Hand (Strg+1)</translation>
+    </message>
+    <message>
+      <source>Watch</source>
+      <translation>Ansehen</translation>
+    </message>
+    <message>
+      <source>Optimise, look at and compare scenes (Ctrl+2)</source>
+      <translation>Optimieren, Szenen ansehen und vergleichen (Strg+2)</translation>
+    </message>
+    <message>
+      <source>This is a fault of ours, not of your data. Your annotations are on disk. The details help us to mend it.</source>
+      <translation>Das ist ein Fehler von uns, nicht Ihrer Daten. Ihre Annotationen sind gespeichert. Die Einzelheiten helfen uns, ihn zu beheben.</translation>
+    </message>
+    <message>
+      <source>A fault of the app</source>
+      <translation>Ein Fehler der App</translation>
+    </message>
+    <message>
+      <source>That did not work</source>
+      <translation>Das ging nicht</translation>
+    </message>
+    <message>
+      <source>What do you want to do?</source>
+      <translation>Was möchten Sie tun?</translation>
+    </message>
+    <message>
+      <source>All shortcuts</source>
+      <translation>Alle Tasten</translation>
+    </message>
+    <message>
+      <source>Shortcuts and settings</source>
+      <translation>Tasten und Einstellungen</translation>
+    </message>
+    <message>
+      <source>Set</source>
+      <translation>Setzen</translation>
+    </message>
+    <message>
+      <source>As delivered</source>
+      <translation>Wie geliefert</translation>
+    </message>
+    <message>
+      <source>The language changes when the app starts again.</source>
+      <translation>Die Sprache wechselt beim nächsten Start der App.</translation>
+    </message>
+    <message>
+      <source>Other</source>
+      <translation>Weitere</translation>
+    </message>
+    <message>
+      <source>Search</source>
+      <translation>Suchen</translation>
+    </message>
+    <message>
+      <source>Command</source>
+      <translation>Befehl</translation>
+    </message>
+    <message>
+      <source>Keys</source>
+      <translation>Tasten</translation>
+    </message>
+    <message>
+      <source>What it does</source>
+      <translation>Was er tut</translation>
+    </message>
+    <message>
+      <source>Keys as in</source>
+      <translation>Tasten wie in</translation>
+    </message>
+    <message>
+      <source>Language</source>
+      <translation>Sprache</translation>
+    </message>
+    <message>
+      <source>New key</source>
+      <translation>Neue Taste</translation>
+    </message>
+    <message>
+      <source>{key} is used by “{first}” and “{second}”.</source>
+      <translation>{key} gehört schon zu „{first}“ und „{second}“.</translation>
+    </message>
+    <message>
+      <source>As the system</source>
+      <translation>Wie das System</translation>
+    </message>
+    <message>
+      <source>elevation {degrees:+.1f}°</source>
+      <translation>Höhe {degrees:+.1f}°</translation>
+    </message>
+    <message>
+      <source>azimuth {degrees:+.1f}°</source>
+      <translation>Azimut {degrees:+.1f}°</translation>
+    </message>
+    <message>
+      <source>Not seen: {angle:.0f}° from the nearest supervised view.</source>
+      <translation>Nicht gesehen: {angle:.0f}° von der nächsten überwachten Ansicht.</translation>
+    </message>
+    <message>
+      <source>roll {degrees:+.1f}°</source>
+      <translation>Rollen {degrees:+.1f}°</translation>
+    </message>
+    <message>
+      <source>No OpenGL here: the processor draws. Everything works, large scenes turn slower.</source>
+      <translation>Kein OpenGL: der Prozessor zeichnet. Alles geht, große Szenen drehen sich langsamer.</translation>
+    </message>
+    <message>
+      <source>OpenGL is emulated here: the processor draws directly, which is faster.</source>
+      <translation>OpenGL wird hier nachgeahmt: der Prozessor zeichnet direkt, das ist schneller.</translation>
+    </message>
+    <message>
+      <source>The view cannot be drawn: {reason}</source>
+      <translation>Die Ansicht kann nicht gezeichnet werden: {reason}</translation>
+    </message>
+    <message>
+      <source>Edge</source>
+      <translation>Kante</translation>
+    </message>
+    <message>
+      <source>Share of the scene</source>
+      <translation>Anteil der Szene</translation>
+    </message>
+    <message>
+      <source>Gain</source>
+      <translation>Verstärkung</translation>
+    </message>
+    <message>
+      <source>Input</source>
+      <translation>Eingabe</translation>
+    </message>
+    <message>
+      <source>No clip is open</source>
+      <translation>Kein Clip ist offen</translation>
+    </message>
+    <message>
+      <source>Waiting for the scene at the input camera …</source>
+      <translation>Warten auf die Szene an der Eingabekamera …</translation>
+    </message>
+    <message>
+      <source>Input  |  scene</source>
+      <translation>Eingabe  |  Szene</translation>
+    </message>
+    <message>
+      <source>Input and scene</source>
+      <translation>Eingabe und Szene</translation>
+    </message>
+    <message>
+      <source>Difference × {gain:.1f}</source>
+      <translation>Differenz × {gain:.1f}</translation>
+    </message>
+    <message>
+      <source>Stop the run and throw its scene away?</source>
+      <translation>Den Lauf beenden und seine Szene verwerfen?</translation>
+    </message>
+    <message>
+      <source>Save the curves</source>
+      <translation>Kurven speichern</translation>
+    </message>
+    <message>
+      <source>Open a run folder</source>
+      <translation>Ordner eines Laufs öffnen</translation>
+    </message>
+    <message>
+      <source>Background</source>
+      <translation>Hintergrund</translation>
+    </message>
+    <message>
+      <source>Without motion</source>
+      <translation>Ohne Bewegung</translation>
+    </message>
+    <message>
+      <source>Show all objects</source>
+      <translation>Alle Objekte zeigen</translation>
+    </message>
+    <message>
+      <source>Solo</source>
+      <translation>Allein zeigen</translation>
+    </message>
+    <message>
+      <source>step</source>
+      <translation>Schritt</translation>
+    </message>
+    <message>
+      <source>Off</source>
+      <translation>Aus</translation>
+    </message>
+    <message>
+      <source>Side by side</source>
+      <translation>Nebeneinander</translation>
+    </message>
+    <message>
+      <source>Wipe</source>
+      <translation>Wischen</translation>
+    </message>
+    <message>
+      <source>Blink</source>
+      <translation>Blinken</translation>
+    </message>
+    <message>
+      <source>Difference</source>
+      <translation>Differenz</translation>
+    </message>
+    <message>
+      <source>Choose another scene, or freeze this one, and compare as it goes on.</source>
+      <translation>Wählen Sie eine andere Szene, oder frieren Sie diese ein und vergleichen Sie, während es weitergeht.</translation>
+    </message>
+    <message>
+      <source>Choose a scene</source>
+      <translation>Szene wählen</translation>
+    </message>
+    <message>
+      <source>PSNR of this frame (dB)</source>
+      <translation>PSNR dieses Bilds (dB)</translation>
+    </message>
+    <message>
+      <source>Choose a scene…</source>
+      <translation>Szene wählen…</translation>
+    </message>
+    <message>
+      <source>Freeze what is on show</source>
+      <translation>Gezeigtes einfrieren</translation>
+    </message>
+    <message>
+      <source>Figure</source>
+      <translation>Kennzahl</translation>
+    </message>
+    <message>
+      <source>On show</source>
+      <translation>Gezeigt</translation>
+    </message>
+    <message>
+      <source>held-out PSNR (dB)</source>
+      <translation>PSNR zurückgehalten (dB)</translation>
+    </message>
+    <message>
+      <source>{name}, frozen at step {step}</source>
+      <translation>{name}, eingefroren bei Schritt {step}</translation>
+    </message>
+    <message>
+      <source>the next minute buys {gain:+.2f} ± {spread:.2f} dB</source>
+      <translation>die nächste Minute bringt {gain:+.2f} ± {spread:.2f} dB</translation>
+    </message>
+    <message>
+      <source>Logarithmic</source>
+      <translation>Logarithmisch</translation>
+    </message>
+    <message>
+      <source>Smooth</source>
+      <translation>Glätten</translation>
+    </message>
+    <message>
+      <source>seconds</source>
+      <translation>Sekunden</translation>
+    </message>
+    <message>
+      <source>measured</source>
+      <translation>gemessen</translation>
+    </message>
+    <message>
+      <source>expected</source>
+      <translation>erwartet</translation>
+    </message>
+    <message>
+      <source>worker</source>
+      <translation>Arbeitsprozess</translation>
+    </message>
+    <message>
+      <source>Accuracy against time</source>
+      <translation>Genauigkeit über der Zeit</translation>
+    </message>
+    <message>
+      <source>Losses</source>
+      <translation>Verluste</translation>
+    </message>
+    <message>
+      <source>weighted loss</source>
+      <translation>gewichteter Verlust</translation>
+    </message>
+    <message>
+      <source>Gaussians</source>
+      <translation>Gaußglocken</translation>
+    </message>
+    <message>
+      <source>Time of a step</source>
+      <translation>Zeit eines Schritts</translation>
+    </message>
+    <message>
+      <source>ms</source>
+      <translation>ms</translation>
+    </message>
+    <message>
+      <source>Memory</source>
+      <translation>Speicher</translation>
+    </message>
+    <message>
+      <source>MB</source>
+      <translation>MB</translation>
+    </message>
+    <message>
+      <source>median {value:.0f}</source>
+      <translation>Median {value:.0f}</translation>
+    </message>
+    <message>
+      <source>Effect</source>
+      <translation>Effekt</translation>
+    </message>
+    <message>
+      <source>Evidence</source>
+      <translation>Beleg</translation>
+    </message>
+    <message>
+      <source>Cost</source>
+      <translation>Kosten</translation>
+    </message>
+    <message>
+      <source>Joint occlusion</source>
+      <translation>Gemeinsame Verdeckung</translation>
+    </message>
+    <message>
+      <source>Camera motion</source>
+      <translation>Kamerabewegung</translation>
+    </message>
+    <message>
+      <source>Bending motion</source>
+      <translation>Verformung</translation>
+    </message>
+    <message>
+      <source>Changing light</source>
+      <translation>Wechselndes Licht</translation>
+    </message>
+    <message>
+      <source>Unseen views</source>
+      <translation>Ungesehene Ansichten</translation>
+    </message>
+    <message>
+      <source>Object labels</source>
+      <translation>Objektnummern</translation>
+    </message>
+    <message>
+      <source>Depth order</source>
+      <translation>Tiefenordnung</translation>
+    </message>
+    <message>
+      <source>Optical flow</source>
+      <translation>Optischer Fluss</translation>
+    </message>
+    <message>
+      <source>Point tracks</source>
+      <translation>Punktspuren</translation>
+    </message>
+    <message>
+      <source>Reappearance</source>
+      <translation>Wiederauftauchen</translation>
+    </message>
+    <message>
+      <source>The clip could not be measured.</source>
+      <translation>Der Clip konnte nicht vermessen werden.</translation>
+    </message>
+    <message>
+      <source>Measured {evidence}; on from {bound} ({origin}).</source>
+      <translation>Gemessen {evidence}; an ab {bound} ({origin}).</translation>
+    </message>
+    <message>
+      <source>Costs about {ms:.1f} ms per step and {mb:.1f} MB.</source>
+      <translation>Kostet etwa {ms:.1f} ms je Schritt und {mb:.1f} MB.</translation>
+    </message>
+    <message>
+      <source>Picture of this view</source>
+      <translation>Bild dieser Ansicht</translation>
+    </message>
+    <message>
+      <source>Transparent behind the scene</source>
+      <translation>Durchsichtig hinter der Szene</translation>
+    </message>
+    <message>
+      <source>Width</source>
+      <translation>Breite</translation>
+    </message>
+    <message>
+      <source>Height</source>
+      <translation>Höhe</translation>
+    </message>
+    <message>
+      <source>Turntable video</source>
+      <translation>Drehtisch-Video</translation>
+    </message>
+    <message>
+      <source>Pictures with a transparent background</source>
+      <translation>Bilder mit durchsichtigem Hintergrund</translation>
+    </message>
+    <message>
+      <source>Colour</source>
+      <translation>Farbe</translation>
+    </message>
+    <message>
+      <source>Depth</source>
+      <translation>Tiefe</translation>
+    </message>
+    <message>
+      <source>Objects</source>
+      <translation>Objekte</translation>
+    </message>
+    <message>
+      <source>Motion to the next frame</source>
+      <translation>Bewegung zum nächsten Bild</translation>
+    </message>
+    <message>
+      <source>Coverage</source>
+      <translation>Deckung</translation>
+    </message>
+    <message>
+      <source>Surface direction</source>
+      <translation>Flächenrichtung</translation>
+    </message>
+    <message>
+      <source>This frame</source>
+      <translation>Dieses Bild</translation>
+    </message>
+    <message>
+      <source>The clip once</source>
+      <translation>Der Clip einmal</translation>
+    </message>
+    <message>
+      <source>The clip again and again</source>
+      <translation>Der Clip immer wieder</translation>
+    </message>
+    <message>
+      <source>Length</source>
+      <translation>Länge</translation>
+    </message>
+    <message>
+      <source>Pictures a second</source>
+      <translation>Bilder je Sekunde</translation>
+    </message>
+    <message>
+      <source>Turn</source>
+      <translation>Drehung</translation>
+    </message>
+    <message>
+      <source>Elevation</source>
+      <translation>Höhe</translation>
+    </message>
+    <message>
+      <source>Short side</source>
+      <translation>Kurze Seite</translation>
+    </message>
+    <message>
+      <source>Show</source>
+      <translation>Zeigen</translation>
+    </message>
+    <message>
+      <source>Scene time</source>
+      <translation>Zeit der Szene</translation>
+    </message>
+    <message>
+      <source>A run is going on. What becomes of it?</source>
+      <translation>Ein Lauf ist im Gang. Was soll mit ihm geschehen?</translation>
+    </message>
+    <message>
+      <source>A run that goes on alone is listed on the start page; open it there to watch it again.</source>
+      <translation>Ein Lauf, der allein weitergeht, steht auf der Startseite; öffnen Sie ihn dort, um ihn wieder anzusehen.</translation>
+    </message>
+    <message>
+      <source>Let it go on</source>
+      <translation>Weiterlaufen lassen</translation>
+    </message>
+    <message>
+      <source>Stop and keep the scene</source>
+      <translation>Beenden und Szene behalten</translation>
+    </message>
+    <message>
+      <source>Stop and throw it away</source>
+      <translation>Beenden und verwerfen</translation>
+    </message>
+    <message>
+      <source>Turn the view</source>
+      <translation>Ansicht drehen</translation>
+    </message>
+    <message>
+      <source>Moves the objects apart</source>
+      <translation>Rückt die Objekte auseinander</translation>
+    </message>
+    <message>
+      <source>Show or hide an object</source>
+      <translation>Objekt zeigen oder verbergen</translation>
+    </message>
+    <message>
+      <source>Move objects apart</source>
+      <translation>Objekte auseinanderrücken</translation>
+    </message>
+    <message>
+      <source>Object</source>
+      <translation>Objekt</translation>
+    </message>
+    <message>
+      <source>Tint…</source>
+      <translation>Färben…</translation>
+    </message>
+    <message>
+      <source>All</source>
+      <translation>Alle</translation>
+    </message>
+    <message>
+      <source>Edit this mask…</source>
+      <translation>Diese Maske bearbeiten…</translation>
+    </message>
+    <message>
+      <source>Apart</source>
+      <translation>Abstand</translation>
+    </message>
+    <message>
+      <source>Tint of the object</source>
+      <translation>Farbe des Objekts</translation>
+    </message>
+    <message>
+      <source>Tint an object</source>
+      <translation>Objekt färben</translation>
+    </message>
+    <message>
+      <source>A number of the run; a change takes effect at the next step</source>
+      <translation>Eine Zahl des Laufs; eine Änderung gilt ab dem nächsten Schritt</translation>
+    </message>
+    <message>
+      <source>Camera path</source>
+      <translation>Kamerafahrt</translation>
+    </message>
+    <message>
+      <source>Back to the first key</source>
+      <translation>Zurück zum ersten Schlüssel</translation>
+    </message>
+    <message>
+      <source>Load a camera path</source>
+      <translation>Kamerafahrt laden</translation>
+    </message>
+    <message>
+      <source>Save the camera path</source>
+      <translation>Kamerafahrt speichern</translation>
+    </message>
+    <message>
+      <source>Arrives (s)</source>
+      <translation>Ankunft (s)</translation>
+    </message>
+    <message>
+      <source>Frame</source>
+      <translation>Bild</translation>
+    </message>
+    <message>
+      <source>Field of view (°)</source>
+      <translation>Bildwinkel (°)</translation>
+    </message>
+    <message>
+      <source>Stays (s)</source>
+      <translation>Halt (s)</translation>
+    </message>
+    <message>
+      <source>Move the view, choose a frame, and add a key. Numbers can be typed over.</source>
+      <translation>Bewegen Sie die Ansicht, wählen Sie ein Bild und fügen Sie einen Schlüssel hinzu. Zahlen lassen sich überschreiben.</translation>
+    </message>
+    <message>
+      <source>Load…</source>
+      <translation>Laden…</translation>
+    </message>
+    <message>
+      <source>Save…</source>
+      <translation>Speichern…</translation>
+    </message>
+    <message>
+      <source>Render…</source>
+      <translation>Rendern…</translation>
+    </message>
+    <message>
+      <source>Add a key here</source>
+      <translation>Schlüssel hier hinzufügen</translation>
+    </message>
+    <message>
+      <source>Take this view</source>
+      <translation>Diese Ansicht nehmen</translation>
+    </message>
+    <message>
+      <source>Delete</source>
+      <translation>Löschen</translation>
+    </message>
+    <message>
+      <source>{count} Gaussians cover {coverage:.0f} % of pixel ({x:.0f}, {y:.0f}); depth {depth:.3f}.</source>
+      <translation>{count} Gaußglocken decken {coverage:.0f} % von Pixel ({x:.0f}, {y:.0f}); Tiefe {depth:.3f}.</translation>
+    </message>
+    <message>
+      <source>Click a place in the scene to see which Gaussians make its colour.</source>
+      <translation>Klicken Sie eine Stelle der Szene an, um zu sehen, welche Gaußglocken ihre Farbe ergeben.</translation>
+    </message>
+    <message>
+      <source>Share</source>
+      <translation>Anteil</translation>
+    </message>
+    <message>
+      <source>Opacity</source>
+      <translation>Deckkraft</translation>
+    </message>
+    <message>
+      <source>Number</source>
+      <translation>Nummer</translation>
+    </message>
+    <message>
+      <source>Position</source>
+      <translation>Ort</translation>
+    </message>
+    <message>
+      <source>Turn (°)</source>
+      <translation>Drehung (°)</translation>
+    </message>
+    <message>
+      <source>Size</source>
+      <translation>Größe</translation>
+    </message>
+    <message>
+      <source>Nothing is there.</source>
+      <translation>Dort ist nichts.</translation>
+    </message>
+    <message>
+      <source>no limit</source>
+      <translation>unbegrenzt</translation>
+    </message>
+    <message>
+      <source>The run ends after this time with what it has.</source>
+      <translation>Der Lauf endet nach dieser Zeit mit dem, was er hat.</translation>
+    </message>
+    <message>
+      <source>Preset</source>
+      <translation>Voreinstellung</translation>
+    </message>
+    <message>
+      <source>Budget</source>
+      <translation>Zeitbudget</translation>
+    </message>
+    <message>
+      <source>Device</source>
+      <translation>Gerät</translation>
+    </message>
+    <message>
+      <source>Draft</source>
+      <translation>Entwurf</translation>
+    </message>
+    <message>
+      <source>Standard</source>
+      <translation>Standard</translation>
+    </message>
+    <message>
+      <source>Full (as the paper)</source>
+      <translation>Voll (wie im Artikel)</translation>
+    </message>
+    <message>
+      <source>Automatic</source>
+      <translation>Automatisch</translation>
+    </message>
+    <message>
+      <source>Processor</source>
+      <translation>Prozessor</translation>
+    </message>
+    <message>
+      <source>Graphics card (CUDA)</source>
+      <translation>Grafikkarte (CUDA)</translation>
+    </message>
+    <message>
+      <source>Open a clip to start a run.</source>
+      <translation>Öffnen Sie einen Clip, um einen Lauf zu starten.</translation>
+    </message>
+    <message>
+      <source>Measuring what the clip calls for …</source>
+      <translation>Es wird gemessen, was der Clip verlangt …</translation>
+    </message>
+    <message>
+      <source>About {low} to {high}, about {mb:.1f} GB of memory.</source>
+      <translation>Etwa {low} bis {high}, etwa {mb:.1f} GB Speicher.</translation>
+    </message>
+    <message>
+      <source>That is more than this machine has free: choose a smaller preset.</source>
+      <translation>Das ist mehr, als diese Maschine frei hat: wählen Sie eine kleinere Voreinstellung.</translation>
+    </message>
+    <message>
+      <source>Stop when a minute buys less than</source>
+      <translation>Beenden, wenn eine Minute weniger bringt als</translation>
+    </message>
+    <message>
+      <source>Resume from the checkpoint</source>
+      <translation>Vom Prüfpunkt fortsetzen</translation>
+    </message>
+    <message>
+      <source>Change while it runs</source>
+      <translation>Während des Laufs ändern</translation>
+    </message>
+    <message>
+      <source>No run</source>
+      <translation>Kein Lauf</translation>
+    </message>
+    <message>
+      <source>Starting</source>
+      <translation>Startet</translation>
+    </message>
+    <message>
+      <source>Preparing</source>
+      <translation>Bereitet vor</translation>
+    </message>
+    <message>
+      <source>Running</source>
+      <translation>Läuft</translation>
+    </message>
+    <message>
+      <source>Paused</source>
+      <translation>Angehalten</translation>
+    </message>
+    <message>
+      <source>Stepping</source>
+      <translation>Einzelschritt</translation>
+    </message>
+    <message>
+      <source>Stopping</source>
+      <translation>Endet</translation>
+    </message>
+    <message>
+      <source>Writing the scene</source>
+      <translation>Schreibt die Szene</translation>
+    </message>
+    <message>
+      <source>Failed</source>
+      <translation>Fehlgeschlagen</translation>
+    </message>
+    <message>
+      <source>No sign of life</source>
+      <translation>Kein Lebenszeichen</translation>
+    </message>
+    <message>
+      <source>step {step}, {count} Gaussians</source>
+      <translation>Schritt {step}, {count} Gaußglocken</translation>
+    </message>
+    <message>
+      <source>the view costs {share:.1f} %</source>
+      <translation>die Ansicht kostet {share:.1f} %</translation>
+    </message>
+    <message>
+      <source>{time} left</source>
+      <translation>noch {time}</translation>
+    </message>
+    <message>
+      <source>Reading {name} …</source>
+      <translation>{name} wird gelesen …</translation>
+    </message>
+    <message>
+      <source>Save the scene</source>
+      <translation>Szene speichern</translation>
+    </message>
+    <message>
+      <source>Save this frame</source>
+      <translation>Dieses Bild speichern</translation>
+    </message>
+    <message>
+      <source>Folder for the PLY files</source>
+      <translation>Ordner für die PLY-Dateien</translation>
+    </message>
+    <message>
+      <source>Cancel</source>
+      <translation>Abbrechen</translation>
+    </message>
+    <message>
+      <source>Save the video</source>
+      <translation>Video speichern</translation>
+    </message>
+    <message>
+      <source>Save the picture</source>
+      <translation>Bild speichern</translation>
+    </message>
+    <message>
+      <source>Save the scene first; videos are made from its file.</source>
+      <translation>Speichern Sie zuerst die Szene; Videos entstehen aus ihrer Datei.</translation>
+    </message>
+    <message>
+      <source>Folder for the pictures</source>
+      <translation>Ordner für die Bilder</translation>
+    </message>
+    <message>
+      <source>Writing {name} …</source>
+      <translation>{name} wird geschrieben …</translation>
+    </message>
+    <message>
+      <source>Drag to any frame</source>
+      <translation>Zu jedem Bild ziehen</translation>
+    </message>
+    <message>
+      <source>Frame (counted from 1)</source>
+      <translation>Bild (ab 1 gezählt)</translation>
+    </message>
+    <message>
+      <source>Loop</source>
+      <translation>Schleife</translation>
+    </message>
+    <message>
+      <source>There and back</source>
+      <translation>Hin und zurück</translation>
+    </message>
+    <message>
+      <source>Once</source>
+      <translation>Einmal</translation>
+    </message>
+    <message>
+      <source>{count} pairs, median {median:.2f} px, states differ in {share:.1f} %</source>
+      <translation>{count} Paare, Median {median:.2f} px, Zustände verschieden in {share:.1f} %</translation>
+    </message>
+    <message>
+      <source>px at 256</source>
+      <translation>px bei 256</translation>
+    </message>
+    <message>
+      <source>Follow through the scene</source>
+      <translation>Durch die Szene verfolgen</translation>
+    </message>
+    <message>
+      <source>Carries the points of the other set through the 4D scene, hidden or not</source>
+      <translation>Trägt die Punkte der anderen Spuren durch die 4D-Szene, verdeckt oder nicht</translation>
+    </message>
+    <message>
+      <source>Scene</source>
+      <translation>Szene</translation>
+    </message>
+    <message>
+      <source>predicted</source>
+      <translation>vorhergesagt</translation>
+    </message>
+    <message>
+      <source>annotated</source>
+      <translation>annotiert</translation>
+    </message>
+    <message>
+      <source>imported</source>
+      <translation>importiert</translation>
+    </message>
+    <message>
+      <source>Import tracks</source>
+      <translation>Spuren importieren</translation>
+    </message>
+    <message>
+      <source>Tracks</source>
+      <translation>Spuren</translation>
+    </message>
+    <message>
+      <source>Origin</source>
+      <translation>Herkunft</translation>
+    </message>
+    <message>
+      <source>Points</source>
+      <translation>Punkte</translation>
+    </message>
+    <message>
+      <source>Track</source>
+      <translation>Spur</translation>
+    </message>
+    <message>
+      <source>Worst frame</source>
+      <translation>Schlechtestes Bild</translation>
+    </message>
+    <message>
+      <source>Distance</source>
+      <translation>Abstand</translation>
+    </message>
+    <message>
+      <source>Import…</source>
+      <translation>Importieren…</translation>
+    </message>
+    <message>
+      <source>Jump to worst</source>
+      <translation>Zum schlechtesten</translation>
+    </message>
+    <message>
+      <source>against</source>
+      <translation>gegen</translation>
+    </message>
+    <message>
+      <source>Of the clip</source>
+      <translation>Des Clips</translation>
+    </message>
+    <message>
+      <source>Azimuth</source>
+      <translation>Azimut</translation>
+    </message>
+    <message>
+      <source>Roll</source>
+      <translation>Rollen</translation>
+    </message>
+    <message>
+      <source>Radius</source>
+      <translation>Abstand</translation>
+    </message>
+    <message>
+      <source>Field of view</source>
+      <translation>Bildwinkel</translation>
+    </message>
+    <message>
+      <source>Splat size</source>
+      <translation>Größe der Glocken</translation>
+    </message>
+    <message>
+      <source>Copies these numbers as text</source>
+      <translation>Kopiert diese Zahlen als Text</translation>
+    </message>
+    <message>
+      <source>Seen: supervision reaches this view.</source>
+      <translation>Gesehen: die Überwachung reicht bis hierher.</translation>
+    </message>
+    <message>
+      <source>Copy</source>
+      <translation>Kopieren</translation>
+    </message>
+    <message>
+      <source>Paste</source>
+      <translation>Einfügen</translation>
+    </message>
+    <message>
+      <source>New run</source>
+      <translation>Neuer Lauf</translation>
+    </message>
+    <message>
+      <source>This run</source>
+      <translation>Dieser Lauf</translation>
+    </message>
+    <message>
+      <source>View</source>
+      <translation>Ansicht</translation>
+    </message>
+    <message>
+      <source>Run</source>
+      <translation>Lauf</translation>
+    </message>
+    <message>
+      <source>Curves</source>
+      <translation>Kurven</translation>
+    </message>
+    <message>
+      <source>Picked Gaussian</source>
+      <translation>Gewählte Gaußglocke</translation>
+    </message>
+    <message>
+      <source>Compare scenes</source>
+      <translation>Szenen vergleichen</translation>
+    </message>
+    <message>
+      <source>clip</source>
+      <translation>Clip</translation>
+    </message>
+    <message>
+      <source>scene</source>
+      <translation>Szene</translation>
+    </message>
+    <message>
+      <source>project</source>
+      <translation>Projekt</translation>
+    </message>
+    <message>
+      <source>splat</source>
+      <translation>Glocken</translation>
+    </message>
+    <message>
+      <source>run</source>
+      <translation>Lauf</translation>
+    </message>
+    <message>
+      <source>From a video of several objects to a complete 4D scene and accurate point tracks.</source>
+      <translation>Aus einem Video mehrerer Objekte wird eine vollständige 4D-Szene mit genauen Punktspuren.</translation>
+    </message>
+    <message>
+      <source>Open the demo clip</source>
+      <translation>Demo-Clip öffnen</translation>
+    </message>
+    <message>
+      <source>Or drop a folder or a file anywhere on the window.  Ctrl+K finds every command, F1 every key.</source>
+      <translation>Oder legen Sie einen Ordner oder eine Datei irgendwo auf dem Fenster ab.  Strg+K findet jeden Befehl, F1 jede Taste.</translation>
+    </message>
+    <message>
+      <source>Try it</source>
+      <translation>Ausprobieren</translation>
+    </message>
+    <message>
+      <source>Shapes that cross and hide one another, made on the spot.</source>
+      <translation>Körper, die sich kreuzen und verdecken, an Ort und Stelle erzeugt.</translation>
+    </message>
+    <message>
+      <source>Your own clip</source>
+      <translation>Ihr eigener Clip</translation>
+    </message>
+    <message>
+      <source>A folder of images. Masks, depth and cameras beside it are used if they are there.</source>
+      <translation>Ein Ordner mit Bildern. Masken, Tiefe und Kameras daneben werden benutzt, wenn es sie gibt.</translation>
+    </message>
+    <message>
+      <source>A file</source>
+      <translation>Eine Datei</translation>
+    </message>
+    <message>
+      <source>A video, a scene (.h5), an annotation project (.genmojo) or a splat (.ply).</source>
+      <translation>Ein Video, eine Szene (.h5), ein Annotationsprojekt (.genmojo) oder Glocken (.ply).</translation>
+    </message>
+    <message>
+      <source>Opened lately</source>
+      <translation>Zuletzt geöffnet</translation>
+    </message>
+    <message>
+      <source>run, going on now</source>
+      <translation>Lauf, gerade im Gang</translation>
+    </message>
+    <message>
+      <source>Nothing yet.</source>
+      <translation>Noch nichts.</translation>
+    </message>
+    <message>
+      <source>Open clip folder…</source>
+      <translation>Clip-Ordner öffnen…</translation>
+    </message>
+    <message>
+      <source>Open file…</source>
+      <translation>Datei öffnen…</translation>
+    </message>
+    <message>
+      <source>Making the demo clip …</source>
+      <translation>Der Demo-Clip wird erzeugt …</translation>
+    </message>
+    <message>
+      <source>Open a clip folder</source>
+      <translation>Clip-Ordner öffnen</translation>
+    </message>
+    <message>
+      <source>Open a file</source>
+      <translation>Datei öffnen</translation>
+    </message>
+    <message>
+      <source>Reports of earlier crashes</source>
+      <translation>Berichte früherer Abstürze</translation>
+    </message>
+    <message>
+      <source>Opens a folder of images or a clip.</source>
+      <translation>Öffnet einen Ordner mit Bildern oder einen Clip.</translation>
+    </message>
+    <message>
+      <source>File</source>
+      <translation>Datei</translation>
+    </message>
+    <message>
+      <source>Opens a video, a scene, a project or a PLY.</source>
+      <translation>Öffnet ein Video, eine Szene, ein Projekt oder eine PLY-Datei.</translation>
+    </message>
+    <message>
+      <source>Makes a small clip on the spot and opens it.</source>
+      <translation>Erzeugt einen kleinen Clip und öffnet ihn.</translation>
+    </message>
+    <message>
+      <source>Back to the start page</source>
+      <translation>Zurück zur Startseite</translation>
+    </message>
+    <message>
+      <source>Keeps everything open.</source>
+      <translation>Alles bleibt offen.</translation>
+    </message>
+    <message>
+      <source>Shortcuts and settings…</source>
+      <translation>Tasten und Einstellungen…</translation>
+    </message>
+    <message>
+      <source>Keys, language.</source>
+      <translation>Tasten, Sprache.</translation>
+    </message>
+    <message>
+      <source>Quit</source>
+      <translation>Beenden</translation>
+    </message>
+    <message>
+      <source>Closes the window; nothing is lost.</source>
+      <translation>Schließt das Fenster; nichts geht verloren.</translation>
+    </message>
+    <message>
+      <source>Points and masks by hand.</source>
+      <translation>Punkte und Masken von Hand.</translation>
+    </message>
+    <message>
+      <source>Window</source>
+      <translation>Fenster</translation>
+    </message>
+    <message>
+      <source>Optimise, look at and compare scenes.</source>
+      <translation>Optimieren, Szenen ansehen und vergleichen.</translation>
+    </message>
+    <message>
+      <source>Light theme</source>
+      <translation>Helles Aussehen</translation>
+    </message>
+    <message>
+      <source>Switches between the dark and the light theme.</source>
+      <translation>Wechselt zwischen dunklem und hellem Aussehen.</translation>
+    </message>
+    <message>
+      <source>Full screen</source>
+      <translation>Vollbild</translation>
+    </message>
+    <message>
+      <source>Fills the screen.</source>
+      <translation>Füllt den Bildschirm.</translation>
+    </message>
+    <message>
+      <source>Reset the panels</source>
+      <translation>Bereiche zurücksetzen</translation>
+    </message>
+    <message>
+      <source>Puts every panel where it was delivered.</source>
+      <translation>Stellt jeden Bereich, wie er geliefert wurde.</translation>
+    </message>
+    <message>
+      <source>Find a command…</source>
+      <translation>Befehl suchen…</translation>
+    </message>
+    <message>
+      <source>Type what you want to do.</source>
+      <translation>Schreiben Sie, was Sie tun möchten.</translation>
+    </message>
+    <message>
+      <source>Help</source>
+      <translation>Hilfe</translation>
+    </message>
+    <message>
+      <source>Shows the keys that work here.</source>
+      <translation>Zeigt die Tasten, die hier gelten.</translation>
+    </message>
+    <message>
+      <source>What faults left behind.</source>
+      <translation>Was Fehler hinterlassen haben.</translation>
+    </message>
+    <message>
+      <source>Version, licences of what is inside.</source>
+      <translation>Version, Lizenzen der Bestandteile.</translation>
+    </message>
+    <message>
+      <source>Undo</source>
+      <translation>Rückgängig</translation>
+    </message>
+    <message>
+      <source>Takes the last change of the view or the scene back.</source>
+      <translation>Nimmt die letzte Änderung der Ansicht oder Szene zurück.</translation>
+    </message>
+    <message>
+      <source>Edit</source>
+      <translation>Bearbeiten</translation>
+    </message>
+    <message>
+      <source>Redo</source>
+      <translation>Wiederholen</translation>
+    </message>
+    <message>
+      <source>Does it again.</source>
+      <translation>Tut es noch einmal.</translation>
+    </message>
+    <message>
+      <source>Input camera</source>
+      <translation>Eingabekamera</translation>
+    </message>
+    <message>
+      <source>Direction</source>
+      <translation>Richtung</translation>
+    </message>
+    <message>
+      <source>30° to the right</source>
+      <translation>30° nach rechts</translation>
+    </message>
+    <message>
+      <source>30° to the left</source>
+      <translation>30° nach links</translation>
+    </message>
+    <message>
+      <source>30° from above</source>
+      <translation>30° von oben</translation>
+    </message>
+    <message>
+      <source>30° from below</source>
+      <translation>30° von unten</translation>
+    </message>
+    <message>
+      <source>90° to the right</source>
+      <translation>90° nach rechts</translation>
+    </message>
+    <message>
+      <source>90° to the left</source>
+      <translation>90° nach links</translation>
+    </message>
+    <message>
+      <source>From behind</source>
+      <translation>Von hinten</translation>
+    </message>
+    <message>
+      <source>From the top</source>
+      <translation>Von oben</translation>
+    </message>
+    <message>
+      <source>Objects, mixed</source>
+      <translation>Objekte, gemischt</translation>
+    </message>
+    <message>
+      <source>Depth, median</source>
+      <translation>Tiefe, Median</translation>
+    </message>
+    <message>
+      <source>Error against the input</source>
+      <translation>Fehler zur Eingabe</translation>
+    </message>
+    <message>
+      <source>Ellipsoids</source>
+      <translation>Ellipsoide</translation>
+    </message>
+    <message>
+      <source>Centres</source>
+      <translation>Mittelpunkte</translation>
+    </message>
+    <message>
+      <source>Scene alone</source>
+      <translation>Nur die Szene</translation>
+    </message>
+    <message>
+      <source>Compare with the input</source>
+      <translation>Mit der Eingabe vergleichen</translation>
+    </message>
+    <message>
+      <source>Input beside it</source>
+      <translation>Eingabe daneben</translation>
+    </message>
+    <message>
+      <source>Onion skin</source>
+      <translation>Zwiebelhaut</translation>
+    </message>
+    <message>
+      <source>Shows or leaves out the background.</source>
+      <translation>Zeigt den Hintergrund oder lässt ihn weg.</translation>
+    </message>
+    <message>
+      <source>Every object in the shape it was reconstructed in.</source>
+      <translation>Jedes Objekt in der Form, in der es rekonstruiert wurde.</translation>
+    </message>
+    <message>
+      <source>Draws tracks over both pictures.</source>
+      <translation>Zeichnet Spuren über beide Bilder.</translation>
+    </message>
+    <message>
+      <source>Ends solo, hiding, tints and explosion.</source>
+      <translation>Beendet Alleinzeigen, Verbergen, Färben und Abstand.</translation>
+    </message>
+    <message>
+      <source>Solo the selected object</source>
+      <translation>Gewähltes Objekt allein</translation>
+    </message>
+    <message>
+      <source>Hides everything else.</source>
+      <translation>Verbirgt alles andere.</translation>
+    </message>
+    <message>
+      <source>Goes to the annotator's step Objects.</source>
+      <translation>Geht zum Schritt Objekte des Annotators.</translation>
+    </message>
+    <message>
+      <source>Play or pause</source>
+      <translation>Abspielen oder anhalten</translation>
+    </message>
+    <message>
+      <source>Lets time run.</source>
+      <translation>Lässt die Zeit laufen.</translation>
+    </message>
+    <message>
+      <source>Time</source>
+      <translation>Zeit</translation>
+    </message>
+    <message>
+      <source>Next frame</source>
+      <translation>Nächstes Bild</translation>
+    </message>
+    <message>
+      <source>Previous frame</source>
+      <translation>Voriges Bild</translation>
+    </message>
+    <message>
+      <source>First frame</source>
+      <translation>Erstes Bild</translation>
+    </message>
+    <message>
+      <source>Last frame</source>
+      <translation>Letztes Bild</translation>
+    </message>
+    <message>
+      <source>Faster</source>
+      <translation>Schneller</translation>
+    </message>
+    <message>
+      <source>Slower</source>
+      <translation>Langsamer</translation>
+    </message>
+    <message>
+      <source>Start a run</source>
+      <translation>Lauf starten</translation>
+    </message>
+    <message>
+      <source>Optimises a scene of the open clip.</source>
+      <translation>Optimiert eine Szene des offenen Clips.</translation>
+    </message>
+    <message>
+      <source>Pause or go on</source>
+      <translation>Anhalten oder weiter</translation>
+    </message>
+    <message>
+      <source>One step</source>
+      <translation>Ein Schritt</translation>
+    </message>
+    <message>
+      <source>While paused.</source>
+      <translation>Solange angehalten ist.</translation>
+    </message>
+    <message>
+      <source>Run to the next stage</source>
+      <translation>Bis zur nächsten Stufe</translation>
+    </message>
+    <message>
+      <source>Write a checkpoint</source>
+      <translation>Prüfpunkt schreiben</translation>
+    </message>
+    <message>
+      <source>Stop and throw it away…</source>
+      <translation>Beenden und verwerfen…</translation>
+    </message>
+    <message>
+      <source>Save the curves as CSV…</source>
+      <translation>Kurven als CSV speichern…</translation>
+    </message>
+    <message>
+      <source>Go on with a run folder…</source>
+      <translation>Mit einem Lauf-Ordner weitermachen…</translation>
+    </message>
+    <message>
+      <source>Shows a run that lives, or resumes its checkpoint.</source>
+      <translation>Zeigt einen lebenden Lauf oder setzt seinen Prüfpunkt fort.</translation>
+    </message>
+    <message>
+      <source>Scene as HDF5…</source>
+      <translation>Szene als HDF5…</translation>
+    </message>
+    <message>
+      <source>Take away</source>
+      <translation>Mitnehmen</translation>
+    </message>
+    <message>
+      <source>This frame as PLY…</source>
+      <translation>Dieses Bild als PLY…</translation>
+    </message>
+    <message>
+      <source>All frames as PLY…</source>
+      <translation>Alle Bilder als PLY…</translation>
+    </message>
+    <message>
+      <source>Picture of this view…</source>
+      <translation>Bild dieser Ansicht…</translation>
+    </message>
+    <message>
+      <source>Turntable video…</source>
+      <translation>Drehtisch-Video…</translation>
+    </message>
+    <message>
+      <source>Camera path…</source>
+      <translation>Kamerafahrt…</translation>
+    </message>
+    <message>
+      <source>Keys with pose, lens and scene time; renders a video.</source>
+      <translation>Schlüssel mit Lage, Linse und Zeit der Szene; ergibt ein Video.</translation>
+    </message>
+    <message>
+      <source>One frame on.</source>
+      <translation>Ein Bild weiter.</translation>
+    </message>
+    <message>
+      <source>Go</source>
+      <translation>Gehen</translation>
+    </message>
+    <message>
+      <source>One frame back.</source>
+      <translation>Ein Bild zurück.</translation>
+    </message>
+    <message>
+      <source>On by the stride</source>
+      <translation>Um die Schrittweite weiter</translation>
+    </message>
+    <message>
+      <source>On by the frames of the stride.</source>
+      <translation>Um die Bilder der Schrittweite weiter.</translation>
+    </message>
+    <message>
+      <source>Back by the stride</source>
+      <translation>Um die Schrittweite zurück</translation>
+    </message>
+    <message>
+      <source>Back by the stride.</source>
+      <translation>Um die Schrittweite zurück.</translation>
+    </message>
+    <message>
+      <source>Accept all points and go on</source>
+      <translation>Alle Punkte annehmen und weiter</translation>
+    </message>
+    <message>
+      <source>Confirms the points here that nothing speaks against, and goes on by the stride or to the point that needs a look.</source>
+      <translation>Bestätigt die Punkte hier, gegen die nichts spricht, und geht um die Schrittweite weiter oder zum Punkt, der einen Blick braucht.</translation>
+    </message>
+    <message>
+      <source>Accept and go back</source>
+      <translation>Annehmen und zurück</translation>
+    </message>
+    <message>
+      <source>The same, backwards.</source>
+      <translation>Dasselbe rückwärts.</translation>
+    </message>
+    <message>
+      <source>Ten frames on</source>
+      <translation>Zehn Bilder weiter</translation>
+    </message>
+    <message>
+      <source>Ten frames on.</source>
+      <translation>Zehn Bilder weiter.</translation>
+    </message>
+    <message>
+      <source>Ten frames back</source>
+      <translation>Zehn Bilder zurück</translation>
+    </message>
+    <message>
+      <source>Ten back.</source>
+      <translation>Zehn zurück.</translation>
+    </message>
+    <message>
+      <source>A hundred frames on</source>
+      <translation>Hundert Bilder weiter</translation>
+    </message>
+    <message>
+      <source>A hundred frames on.</source>
+      <translation>Hundert Bilder weiter.</translation>
+    </message>
+    <message>
+      <source>A hundred frames back</source>
+      <translation>Hundert Bilder zurück</translation>
+    </message>
+    <message>
+      <source>A hundred frames back.</source>
+      <translation>Hundert Bilder zurück.</translation>
+    </message>
+    <message>
+      <source>The clip's first frame.</source>
+      <translation>Das erste Bild des Clips.</translation>
+    </message>
+    <message>
+      <source>The clip's last frame.</source>
+      <translation>Das letzte Bild des Clips.</translation>
+    </message>
+    <message>
+      <source>Plays at the speed chosen.</source>
+      <translation>Spielt im gewählten Tempo.</translation>
+    </message>
+    <message>
+      <source>Play the segment in a loop</source>
+      <translation>Abschnitt in Schleife spielen</translation>
+    </message>
+    <message>
+      <source>Between the keys around this frame.</source>
+      <translation>Zwischen den Schlüsseln um dieses Bild.</translation>
+    </message>
+    <message>
+      <source>Next key of the track</source>
+      <translation>Nächster Schlüssel der Spur</translation>
+    </message>
+    <message>
+      <source>Where a person placed the point next.</source>
+      <translation>Wo ein Mensch den Punkt als Nächstes gesetzt hat.</translation>
+    </message>
+    <message>
+      <source>Previous key of the track</source>
+      <translation>Voriger Schlüssel der Spur</translation>
+    </message>
+    <message>
+      <source>The key before.</source>
+      <translation>Der Schlüssel davor.</translation>
+    </message>
+    <message>
+      <source>Middle of the gap</source>
+      <translation>Mitte der Lücke</translation>
+    </message>
+    <message>
+      <source>The frame halfway between the keys around this one.</source>
+      <translation>Das Bild mitten zwischen den Schlüsseln um dieses.</translation>
+    </message>
+    <message>
+      <source>Next suspicious spot</source>
+      <translation>Nächste verdächtige Stelle</translation>
+    </message>
+    <message>
+      <source>The most suspicious spot that nobody looked at.</source>
+      <translation>Die verdächtigste Stelle, die niemand angesehen hat.</translation>
+    </message>
+    <message>
+      <source>Previous suspicious spot</source>
+      <translation>Vorige verdächtige Stelle</translation>
+    </message>
+    <message>
+      <source>Back through the suspicious spots.</source>
+      <translation>Zurück durch die verdächtigen Stellen.</translation>
+    </message>
+    <message>
+      <source>Back to where I was</source>
+      <translation>Dorthin zurück, wo ich war</translation>
+    </message>
+    <message>
+      <source>The frame and track before the last jump.</source>
+      <translation>Bild und Spur vor dem letzten Sprung.</translation>
+    </message>
+    <message>
+      <source>Next panel</source>
+      <translation>Nächster Bereich</translation>
+    </message>
+    <message>
+      <source>Moves the keyboard to the next panel.</source>
+      <translation>Setzt die Tastatur in den nächsten Bereich.</translation>
+    </message>
+    <message>
+      <source>Point 1</source>
+      <translation>Punkt 1</translation>
+    </message>
+    <message>
+      <source>Point 1 of the object is active.</source>
+      <translation>Punkt 1 des Objekts ist aktiv.</translation>
+    </message>
+    <message>
+      <source>Point 2</source>
+      <translation>Punkt 2</translation>
+    </message>
+    <message>
+      <source>Point 2 of the object is active.</source>
+      <translation>Punkt 2 des Objekts ist aktiv.</translation>
+    </message>
+    <message>
+      <source>Point 3</source>
+      <translation>Punkt 3</translation>
+    </message>
+    <message>
+      <source>Point 3 of the object is active.</source>
+      <translation>Punkt 3 des Objekts ist aktiv.</translation>
+    </message>
+    <message>
+      <source>Point 4</source>
+      <translation>Punkt 4</translation>
+    </message>
+    <message>
+      <source>Point 4 of the object is active.</source>
+      <translation>Punkt 4 des Objekts ist aktiv.</translation>
+    </message>
+    <message>
+      <source>Point 5</source>
+      <translation>Punkt 5</translation>
+    </message>
+    <message>
+      <source>Point 5 of the object is active.</source>
+      <translation>Punkt 5 des Objekts ist aktiv.</translation>
+    </message>
+    <message>
+      <source>Object 1</source>
+      <translation>Objekt 1</translation>
+    </message>
+    <message>
+      <source>Makes object 1 active.</source>
+      <translation>Macht Objekt 1 aktiv.</translation>
+    </message>
+    <message>
+      <source>Object 2</source>
+      <translation>Objekt 2</translation>
+    </message>
+    <message>
+      <source>Makes object 2 active.</source>
+      <translation>Macht Objekt 2 aktiv.</translation>
+    </message>
+    <message>
+      <source>Object 3</source>
+      <translation>Objekt 3</translation>
+    </message>
+    <message>
+      <source>Makes object 3 active.</source>
+      <translation>Macht Objekt 3 aktiv.</translation>
+    </message>
+    <message>
+      <source>Object 4</source>
+      <translation>Objekt 4</translation>
+    </message>
+    <message>
+      <source>Makes object 4 active.</source>
+      <translation>Macht Objekt 4 aktiv.</translation>
+    </message>
+    <message>
+      <source>Object 5</source>
+      <translation>Objekt 5</translation>
+    </message>
+    <message>
+      <source>Makes object 5 active.</source>
+      <translation>Macht Objekt 5 aktiv.</translation>
+    </message>
+    <message>
+      <source>Next point</source>
+      <translation>Nächster Punkt</translation>
+    </message>
+    <message>
+      <source>The next point; in the frame Tab does it too.</source>
+      <translation>Der nächste Punkt; im Bild auch mit Tab.</translation>
+    </message>
+    <message>
+      <source>Previous point</source>
+      <translation>Voriger Punkt</translation>
+    </message>
+    <message>
+      <source>The point before; in the frame Shift+Tab too.</source>
+      <translation>Der Punkt davor; im Bild auch mit Umschalt+Tab.</translation>
+    </message>
+    <message>
+      <source>Occluded</source>
+      <translation>Verdeckt</translation>
+    </message>
+    <message>
+      <source>Hidden by something; hold and step to paint. Right click too.</source>
+      <translation>Von etwas verdeckt; halten und weitergehen malt. Auch Rechtsklick.</translation>
+    </message>
+    <message>
+      <source>Out of view</source>
+      <translation>Außerhalb</translation>
+    </message>
+    <message>
+      <source>Outside the picture; hold and step to paint.</source>
+      <translation>Außerhalb des Bilds; halten und weitergehen malt.</translation>
+    </message>
+    <message>
+      <source>Visible</source>
+      <translation>Sichtbar</translation>
+    </message>
+    <message>
+      <source>Seen; hold and step to paint.</source>
+      <translation>Zu sehen; halten und weitergehen malt.</translation>
+    </message>
+    <message>
+      <source>Uncertain</source>
+      <translation>Unsicher</translation>
+    </message>
+    <message>
+      <source>Marks a place as uncertain, or no longer.</source>
+      <translation>Kennzeichnet eine Stelle als unsicher oder nicht mehr.</translation>
+    </message>
+    <message>
+      <source>Run starts here</source>
+      <translation>Strecke beginnt hier</translation>
+    </message>
+    <message>
+      <source>The next state, or fault found, begins in this frame.</source>
+      <translation>Der nächste Zustand oder gefundene Fehler beginnt in diesem Bild.</translation>
+    </message>
+    <message>
+      <source>Run ends here</source>
+      <translation>Strecke endet hier</translation>
+    </message>
+    <message>
+      <source>The next state, or fault found, ends in this frame.</source>
+      <translation>Der nächste Zustand oder gefundene Fehler endet in diesem Bild.</translation>
+    </message>
+    <message>
+      <source>Key on or off</source>
+      <translation>Schlüssel an oder aus</translation>
+    </message>
+    <message>
+      <source>Makes this place a key, or an ordinary place.</source>
+      <translation>Macht diese Stelle zum Schlüssel oder zu einer gewöhnlichen Stelle.</translation>
+    </message>
+    <message>
+      <source>Delete the key</source>
+      <translation>Schlüssel löschen</translation>
+    </message>
+    <message>
+      <source>The key becomes an ordinary place.</source>
+      <translation>Der Schlüssel wird eine gewöhnliche Stelle.</translation>
+    </message>
+    <message>
+      <source>Snap to the likeness</source>
+      <translation>Auf die Ähnlichkeit einrasten</translation>
+    </message>
+    <message>
+      <source>Clicks go to the best likeness nearby; shown before.</source>
+      <translation>Klicks gehen zur ähnlichsten Stelle in der Nähe; sie wird vorher gezeigt.</translation>
+    </message>
+    <message>
+      <source>Nudge left</source>
+      <translation>Wenig nach links</translation>
+    </message>
+    <message>
+      <source>A quarter of a pixel.</source>
+      <translation>Ein viertel Pixel.</translation>
+    </message>
+    <message>
+      <source>Nudge right</source>
+      <translation>Wenig nach rechts</translation>
+    </message>
+    <message>
+      <source>Nudge up</source>
+      <translation>Wenig nach oben</translation>
+    </message>
+    <message>
+      <source>Nudge down</source>
+      <translation>Wenig nach unten</translation>
+    </message>
+    <message>
+      <source>Push left</source>
+      <translation>Nach links</translation>
+    </message>
+    <message>
+      <source>One pixel.</source>
+      <translation>Ein Pixel.</translation>
+    </message>
+    <message>
+      <source>Push right</source>
+      <translation>Nach rechts</translation>
+    </message>
+    <message>
+      <source>Push up</source>
+      <translation>Nach oben</translation>
+    </message>
+    <message>
+      <source>Push down</source>
+      <translation>Nach unten</translation>
+    </message>
+    <message>
+      <source>Lets a tracker propose positions for every point.</source>
+      <translation>Lässt einen Verfolger Stellen für jeden Punkt vorschlagen.</translation>
+    </message>
+    <message>
+      <source>Track one frame on</source>
+      <translation>Ein Bild weiter verfolgen</translation>
+    </message>
+    <message>
+      <source>Takes the point into the next frame.</source>
+      <translation>Nimmt den Punkt in das nächste Bild mit.</translation>
+    </message>
+    <message>
+      <source>Track one frame back</source>
+      <translation>Ein Bild zurück verfolgen</translation>
+    </message>
+    <message>
+      <source>Takes the point into the frame before.</source>
+      <translation>Nimmt den Punkt in das Bild davor mit.</translation>
+    </message>
+    <message>
+      <source>Track on to the end</source>
+      <translation>Bis zum Ende verfolgen</translation>
+    </message>
+    <message>
+      <source>Solves from here to the next key.</source>
+      <translation>Löst von hier bis zum nächsten Schlüssel.</translation>
+    </message>
+    <message>
+      <source>Track back to the start</source>
+      <translation>Bis zum Anfang verfolgen</translation>
+    </message>
+    <message>
+      <source>Solves back to the key before.</source>
+      <translation>Löst zurück bis zum Schlüssel davor.</translation>
+    </message>
+    <message>
+      <source>Solve the segment again</source>
+      <translation>Abschnitt neu lösen</translation>
+    </message>
+    <message>
+      <source>Segment: tracker, line, hold</source>
+      <translation>Abschnitt: Verfolger, Gerade, gehalten</translation>
+    </message>
+    <message>
+      <source>How the segment between two keys is filled.</source>
+      <translation>Wie der Abschnitt zwischen zwei Schlüsseln gefüllt wird.</translation>
+    </message>
+    <message>
+      <source>Clear after this frame</source>
+      <translation>Nach diesem Bild leeren</translation>
+    </message>
+    <message>
+      <source>Forgets the track after here.</source>
+      <translation>Vergisst die Spur ab hier.</translation>
+    </message>
+    <message>
+      <source>Clear before this frame</source>
+      <translation>Vor diesem Bild leeren</translation>
+    </message>
+    <message>
+      <source>Forgets it before here.</source>
+      <translation>Vergisst sie bis hier.</translation>
+    </message>
+    <message>
+      <source>Swap with another point…</source>
+      <translation>Mit einem anderen Punkt tauschen…</translation>
+    </message>
+    <message>
+      <source>Two points change places from here on.</source>
+      <translation>Zwei Punkte tauschen ab hier den Platz.</translation>
+    </message>
+    <message>
+      <source>Lock the track</source>
+      <translation>Spur sperren</translation>
+    </message>
+    <message>
+      <source>A locked track cannot be changed.</source>
+      <translation>Eine gesperrte Spur lässt sich nicht ändern.</translation>
+    </message>
+    <message>
+      <source>Delete the track</source>
+      <translation>Spur löschen</translation>
+    </message>
+    <message>
+      <source>Can be undone.</source>
+      <translation>Lässt sich rückgängig machen.</translation>
+    </message>
+    <message>
+      <source>Fit the frame</source>
+      <translation>Bild einpassen</translation>
+    </message>
+    <message>
+      <source>The whole frame.</source>
+      <translation>Das ganze Bild.</translation>
+    </message>
+    <message>
+      <source>One to one</source>
+      <translation>Eins zu eins</translation>
+    </message>
+    <message>
+      <source>One pixel of the clip per pixel of the screen.</source>
+      <translation>Ein Pixel des Clips je Pixel des Bildschirms.</translation>
+    </message>
+    <message>
+      <source>Zoom in</source>
+      <translation>Vergrößern</translation>
+    </message>
+    <message>
+      <source>About the middle of the frame.</source>
+      <translation>Um die Mitte des Bilds.</translation>
+    </message>
+    <message>
+      <source>Zoom out</source>
+      <translation>Verkleinern</translation>
+    </message>
+    <message>
+      <source>View follows the point</source>
+      <translation>Ansicht folgt dem Punkt</translation>
+    </message>
+    <message>
+      <source>Keeps the point in the middle.</source>
+      <translation>Hält den Punkt in der Mitte.</translation>
+    </message>
+    <message>
+      <source>Loupe while held</source>
+      <translation>Lupe, solange gehalten</translation>
+    </message>
+    <message>
+      <source>Now, the key before, the first frame and the difference.</source>
+      <translation>Jetzt, voriger Schlüssel, erstes Bild und Differenz.</translation>
+    </message>
+    <message>
+      <source>Loupe</source>
+      <translation>Lupe</translation>
+    </message>
+    <message>
+      <source>Keeps the loupe open.</source>
+      <translation>Lässt die Lupe offen.</translation>
+    </message>
+    <message>
+      <source>Hide what is drawn while held</source>
+      <translation>Gezeichnetes verbergen, solange gehalten</translation>
+    </message>
+    <message>
+      <source>Shows the bare frame.</source>
+      <translation>Zeigt das bloße Bild.</translation>
+    </message>
+    <message>
+      <source>Masks: off, outline, filled</source>
+      <translation>Masken: aus, Umriss, gefüllt</translation>
+    </message>
+    <message>
+      <source>Changes how masks are drawn.</source>
+      <translation>Ändert, wie Masken gezeichnet werden.</translation>
+    </message>
+    <message>
+      <source>Trails: off, short, long</source>
+      <translation>Schweife: aus, kurz, lang</translation>
+    </message>
+    <message>
+      <source>Changes the length of the trails.</source>
+      <translation>Ändert die Länge der Schweife.</translation>
+    </message>
+    <message>
+      <source>Stabilised strip</source>
+      <translation>Stabilisierter Streifen</translation>
+    </message>
+    <message>
+      <source>Patches of the point in the frames around.</source>
+      <translation>Ausschnitte um den Punkt in den Bildern ringsum.</translation>
+    </message>
+    <message>
+      <source>Larger reticle</source>
+      <translation>Größeres Fadenkreuz</translation>
+    </message>
+    <message>
+      <source>The cross at the mouse.</source>
+      <translation>Das Kreuz an der Maus.</translation>
+    </message>
+    <message>
+      <source>Smaller reticle</source>
+      <translation>Kleineres Fadenkreuz</translation>
+    </message>
+    <message>
+      <source>Takes the last change back and shows where it was.</source>
+      <translation>Nimmt die letzte Änderung zurück und zeigt, wo sie war.</translation>
+    </message>
+    <message>
+      <source>Name this moment…</source>
+      <translation>Diesen Stand benennen…</translation>
+    </message>
+    <message>
+      <source>Everything is stored already; this gives it a name.</source>
+      <translation>Alles ist schon gespeichert; so bekommt es einen Namen.</translation>
+    </message>
+    <message>
+      <source>Go back to a named moment…</source>
+      <translation>Zurück zu einem benannten Stand…</translation>
+    </message>
+    <message>
+      <source>Undoes or redoes up to a checkpoint.</source>
+      <translation>Nimmt zurück oder wiederholt bis zu einem Stand.</translation>
+    </message>
+    <message>
+      <source>Needs a fix…</source>
+      <translation>Nacharbeit nötig…</translation>
+    </message>
+    <message>
+      <source>Returns the track to its annotator with a reason.</source>
+      <translation>Gibt die Spur mit einem Grund an ihren Annotator zurück.</translation>
+    </message>
+    <message>
+      <source>Review</source>
+      <translation>Prüfung</translation>
+    </message>
+    <message>
+      <source>Fixed</source>
+      <translation>Behoben</translation>
+    </message>
+    <message>
+      <source>Says that the spot was worked on.</source>
+      <translation>Sagt, dass an der Stelle gearbeitet wurde.</translation>
+    </message>
+    <message>
+      <source>Approve the track</source>
+      <translation>Spur freigeben</translation>
+    </message>
+    <message>
+      <source>The track is right; it is locked.</source>
+      <translation>Die Spur stimmt; sie wird gesperrt.</translation>
+    </message>
+    <message>
+      <source>Compare with a second annotator…</source>
+      <translation>Mit einem zweiten Annotator vergleichen…</translation>
+    </message>
+    <message>
+      <source>Agreement, and a merge with preview.</source>
+      <translation>Übereinstimmung und Zusammenführen mit Vorschau.</translation>
+    </message>
+    <message>
+      <source>Log and statistics…</source>
+      <translation>Protokoll und Statistik…</translation>
+    </message>
+    <message>
+      <source>Who did what when; time per clip and person.</source>
+      <translation>Wer wann was getan hat; Zeit je Clip und Person.</translation>
+    </message>
+    <message>
+      <source>Annotate a clip…</source>
+      <translation>Clip annotieren…</translation>
+    </message>
+    <message>
+      <source>Opens a clip with a project of its own.</source>
+      <translation>Öffnet einen Clip mit eigenem Projekt.</translation>
+    </message>
+    <message>
+      <source>Import tracks…</source>
+      <translation>Spuren importieren…</translation>
+    </message>
+    <message>
+      <source>TAP-Vid, CoTracker, SLEAP, DeepLabCut, CVAT, COCO, ours.</source>
+      <translation>TAP-Vid, CoTracker, SLEAP, DeepLabCut, CVAT, COCO, unser Format.</translation>
+    </message>
+    <message>
+      <source>Export tracks…</source>
+      <translation>Spuren exportieren…</translation>
+    </message>
+    <message>
+      <source>The same formats.</source>
+      <translation>Dieselben Formate.</translation>
+    </message>
+    <message>
+      <source>Tour of the annotator</source>
+      <translation>Rundgang durch den Annotator</translation>
+    </message>
+    <message>
+      <source>Ten steps on a clip made on the spot.</source>
+      <translation>Zehn Schritte an einem Clip, der an Ort und Stelle entsteht.</translation>
+    </message>
+    <message>
+      <source>Step 1 of 4.</source>
+      <translation>Schritt 1 von 4.</translation>
+    </message>
+    <message>
+      <source>Step</source>
+      <translation>Schritt</translation>
+    </message>
+    <message>
+      <source>Points and seed</source>
+      <translation>Punkte und Vorschlag</translation>
+    </message>
+    <message>
+      <source>Step 2 of 4.</source>
+      <translation>Schritt 2 von 4.</translation>
+    </message>
+    <message>
+      <source>Refine</source>
+      <translation>Verfeinern</translation>
+    </message>
+    <message>
+      <source>Step 3 of 4.</source>
+      <translation>Schritt 3 von 4.</translation>
+    </message>
+    <message>
+      <source>Step 4 of 4.</source>
+      <translation>Schritt 4 von 4.</translation>
+    </message>
+  </context>
+</TS>
