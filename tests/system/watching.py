@@ -16,7 +16,7 @@ from genmojo_studio import app, notify
 from genmojo_studio.export.request import ExportRequest
 from genmojo_studio.settings import Settings
 
-BUDGET = 45.0  # seconds of optimisation
+BUDGET = 400.0  # seconds of optimisation at most; the drive stops it long before
 
 
 class Drive:
