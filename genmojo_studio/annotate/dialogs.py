@@ -9,10 +9,11 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QFileDialog, QInputDialog, QMenu
 
 from genmojo_core.errors import GenmojoError
+from genmojo_core.store.track_sheet import TrackSheet
 from genmojo_core.tracks import edit_tracks
 from genmojo_core.tracks.annotation import REASONS
 from genmojo_studio import notify
-from genmojo_studio.annotate import verbs
+from genmojo_studio.annotate import track_files, verbs
 from genmojo_studio.annotate.log_dialog import LogDialog
 from genmojo_studio.annotate.seed_dialog import SeedDialog
 from genmojo_studio.translate import tr
@@ -31,10 +32,7 @@ class Dialogs:
 
     def seed(self) -> None:
         """Which tracker, which tracks; then it runs in the background."""
-        masks = self._s.clip is not None and self._s.clip.masks is not None
-        dialog = SeedDialog(self._s, self._w.work, {
-            "optical": "" if masks else tr("There are no masks yet: make one in step 1."),
-        }, self._w)  # fmt: skip
+        dialog = SeedDialog(self._s, self._w.work, self._w)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.open()
 
@@ -92,15 +90,25 @@ class Dialogs:
         dialog.open()
 
     def import_tracks(self) -> None:
-        """Tracks of a file become proposals."""
+        """Tracks of a file, into points where no person has spoken."""
+        name, chosen = QFileDialog.getOpenFileName(self._w, tr("Import tracks"), "", track_files.filters())
+        if not name:
+            return
+        s = self._s
+
+        def take() -> None:
+            sheet = track_files.by_title(chosen).read(Path(name), s.annotation.size, s.annotation.frames)
+            s.do(track_files.import_edit(s.annotation, sheet, s.project.person))
+
+        self._try(take)
 
     def export_tracks(self) -> None:
         """Tracks into a file."""
-        from genmojo_core.store.npz import write_tracks
-
-        name, _ = QFileDialog.getSaveFileName(self._w, tr("Export tracks"), "tracks.npz", "npz (*.npz)")
+        name, chosen = QFileDialog.getSaveFileName(self._w, tr("Export tracks"), "tracks.npz", track_files.filters())
         if name:
-            self._try(lambda: write_tracks(self._s.annotation.to_tracks(), Path(name)))
+            sheet = TrackSheet.of_annotation(self._s.annotation)
+            self._try(lambda: track_files.by_title(chosen).write(sheet, Path(name)))
+            self._s.said.emit(tr("Exported: {name}").format(name=name))
 
     def _try(self, work: object) -> None:
         try:

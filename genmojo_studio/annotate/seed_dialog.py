@@ -5,74 +5,61 @@ What a tracker finds is a proposal: places and states that a person gave are nev
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from pathlib import Path
 
-from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QButtonGroup,
+    QCheckBox,
+    QComboBox,
     QDialog,
     QDialogButtonBox,
+    QFileDialog,
+    QFormLayout,
+    QHBoxLayout,
     QLabel,
+    QLineEdit,
     QProgressBar,
+    QPushButton,
     QRadioButton,
     QVBoxLayout,
     QWidget,
 )
 
+from genmojo_core.errors import GenmojoError
+from genmojo_core.trackers import seeding
+from genmojo_studio.annotate.scene_job import SceneJob, forecast
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.work import Work
+from genmojo_studio.settings import Settings
 from genmojo_studio.translate import tr
 
-
-@dataclass(frozen=True)
-class Choice:
-    """A way to seed: name, title, what it does and needs."""
-
-    name: str
-    title: str
-    about: str
-
-
-CHOICES = (
-    Choice("optical", "Optical (built in)", "Follows the points inside their masks by optical flow and matching, from "
-           "both ends between your keys. Needs masks; nothing else."),
-    Choice("scene", "Solve from scene", "Optimises a 4D scene of this clip and takes its tracks, which go on behind "
-           "what hides them. Takes minutes."),
-    Choice("cotracker", "CoTracker (yours)", "Runs a CoTracker that you have: its folder and weights. Its licence "
-           "(CC BY-NC 4.0) forbids commercial use."),
-    Choice("file", "From a file…", "Tracks of a file that belongs to this clip (TAP-Vid, CoTracker, ours)."),
-)  # fmt: skip
+MINUTES = (1, 2, 5, 10)
 
 
 class SeedDialog(QDialog):
     """Asks, starts, shows how far it is; closing it while it runs cancels."""
 
-    def __init__(self, session: Session, work: Work, available: dict[str, str], parent: QWidget | None = None) -> None:
-        """`available` says per choice why it cannot be used now, "" if it can."""
+    def __init__(self, session: Session, work: Work, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._session, self._work = session, work
+        self._session, self._work, self._settings = session, work, Settings()
+        self._job: SceneJob | None = None
         self.setWindowTitle(tr("Seed tracks"))
-        self.setMinimumWidth(460)
+        self.setMinimumWidth(500)
         column = QVBoxLayout(self)
         self._trackers, self._scope = QButtonGroup(self), QButtonGroup(self)
-        for n, choice in enumerate(CHOICES):
-            button = QRadioButton(tr(choice.title))
-            button.setEnabled(not available.get(choice.name, ""))
-            button.setChecked(n == 0)
-            self._trackers.addButton(button, n)
-            column.addWidget(button)
-            text = tr(choice.about)
-            missing = available.get(choice.name, "")
-            label = QLabel(f"{text} {missing}".strip(), wordWrap=True)
-            label.setProperty("role", "dim")
-            label.setContentsMargins(24, 0, 0, 4)
-            column.addWidget(label)
+        self.options: dict[str, QWidget] = {}
+        for n, (title, about, make) in enumerate(self._choices()):
+            self._add(column, n, (title, about), make())
         column.addSpacing(6)
+        scope = QHBoxLayout()
         for n, title in enumerate((tr("all objects"), tr("the active object only"))):
             button = QRadioButton(title)
             button.setChecked(n == 0)
             self._scope.addButton(button, n)
-            column.addWidget(button)
+            scope.addWidget(button)
+        scope.addStretch()
+        column.addLayout(scope)
         self.note = QLabel(tr("Your keys, accepted places and painted states stay as they are."), wordWrap=True)
         column.addWidget(self.note)
         self.progress = QProgressBar()
@@ -85,12 +72,19 @@ class SeedDialog(QDialog):
         column.addWidget(self.buttons)
         self.start.clicked.connect(self._start)
         self.buttons.rejected.connect(self.reject)
+        self._trackers.idClicked.connect(self._show_options)
         work.tracker.progressed.connect(self._progressed)
         work.tracker.seeded.connect(self._seeded)
+        self._show_options(0)
 
     def choice(self) -> str:
-        """Name of the tracker chosen."""
-        return CHOICES[self._trackers.checkedId()].name
+        """Name of the tracker chosen, one of `seeding.NAMES`."""
+        return seeding.NAMES[self._trackers.checkedId()]
+
+    def choose(self, name: str) -> None:
+        """Tick a tracker."""
+        self._trackers.button(seeding.NAMES.index(name)).setChecked(True)
+        self._show_options(seeding.NAMES.index(name))
 
     def objects(self) -> list[int]:
         """Ids of the objects to seed."""
@@ -99,23 +93,164 @@ class SeedDialog(QDialog):
     def reject(self) -> None:
         """Close; what runs is cancelled."""
         self._work.tracker.cancel()
+        if self._job is not None:
+            self._job.cancel()
         super().reject()
 
+    # ---- what is asked
+
+    def _choices(self) -> list[tuple[str, str, Callable[[], QWidget]]]:
+        """Title, explanation and options of every tracker, in the order of `seeding.NAMES`."""
+        return [
+            (tr("Optical (built in)"), tr("Follows the points inside their masks by flow and matching, from both ends "
+             "between your keys."), QWidget),
+            (tr("Solve from scene"), tr("Optimises a 4D scene of this clip and takes its tracks, which go on behind "
+             "what hides them."), self._scene_options),
+            (tr("CoTracker (yours)"), tr("A checkout and weights that you have. CC BY-NC 4.0: no commercial use. It "
+             "runs in a process of its own."), self._cotracker_options),
+            (tr("From a file"), tr("Tracks of this clip that somebody made before: TAP-Vid, CoTracker or ours (npz)."),
+             self._file_options),
+        ]  # fmt: skip
+
+    def _add(self, column: QVBoxLayout, n: int, texts: tuple[str, str], options: QWidget) -> None:
+        button = QRadioButton(texts[0])
+        button.setChecked(n == 0)
+        self._trackers.addButton(button, n)
+        column.addWidget(button)
+        label = QLabel(texts[1], wordWrap=True)
+        label.setProperty("role", "dim")
+        label.setContentsMargins(24, 0, 0, 2)
+        column.addWidget(label)
+        options.setContentsMargins(24, 0, 0, 4)
+        self.options[seeding.NAMES[n]] = options
+        column.addWidget(options)
+
+    def _scene_options(self) -> QWidget:
+        inside = QWidget()
+        form = QFormLayout(inside)
+        self.minutes = QComboBox()
+        for minutes in MINUTES:
+            text = tr("{n} min of optimising, ready in about {m:.1f} min").format(n=minutes, m=forecast(60 * minutes))
+            self.minutes.addItem(text, minutes)
+        self.scene = _PathLine(tr("or a scene of this clip that exists"), "scene.h5 (*.h5)")
+        form.addRow(tr("Time"), self.minutes)
+        form.addRow(tr("Scene"), self.scene)
+        return inside
+
+    def _cotracker_options(self) -> QWidget:
+        inside = QWidget()
+        form = QFormLayout(inside)
+        self.checkout = _PathLine(tr("folder of CoTracker's source"), "", self._settings.text("cotracker/checkout"))
+        self.weights = _PathLine(tr("its weights (.pth)"), "*.pth", self._settings.text("cotracker/weights"))
+        self.consent = QCheckBox(tr("I have read its licence, and this use is not commercial"))
+        form.addRow(tr("Source"), self.checkout)
+        form.addRow(tr("Weights"), self.weights)
+        form.addRow(self.consent)
+        return inside
+
+    def _file_options(self) -> QWidget:
+        inside = QWidget()
+        form = QFormLayout(inside)
+        self.file = _PathLine(tr("npz file"), "npz (*.npz)")
+        form.addRow(tr("File"), self.file)
+        return inside
+
+    def _show_options(self, chosen: int) -> None:
+        for n, name in enumerate(seeding.NAMES):
+            self.options[name].setVisible(n == chosen and name != "optical")
+        self.adjustSize()
+
+    # ---- what is done
+
     def _start(self) -> None:
-        if self.choice() != "optical":
-            self.accept()
+        try:
+            started = self._begin(self.choice())
+        except GenmojoError as error:
+            self.note.setText(str(error))
             return
-        self.progress.setVisible(True)
-        self.start.setEnabled(False)
-        for button in (*self._trackers.buttons(), *self._scope.buttons()):
-            button.setEnabled(False)
-        self.setWindowModality(Qt.WindowModality.NonModal)
-        if not self._work.tracker.seed(self.objects()):
-            self.accept()
+        if started:
+            self.progress.setVisible(True)
+            self.start.setEnabled(False)
+            for widget in (*self._trackers.buttons(), *self._scope.buttons(), *self.options.values()):
+                widget.setEnabled(False)
+
+    def _begin(self, name: str) -> bool:
+        """Start what was chosen; False (with a sentence) where something is missing. Raises GenmojoError."""
+        tracker = self._work.tracker
+        if name == "optical":
+            return tracker.seed(self.objects())
+        if name == "scene" and not self.scene.text():
+            return self._optimise()
+        if name == "scene":
+            return tracker.seed_by(seeding.make("scene", self.scene.text()), self.objects())
+        if name == "file":
+            return tracker.seed_by(seeding.make("file", self.file.text() or None), self.objects())
+        if not self.consent.isChecked():
+            self.note.setText(tr("CoTracker's licence has to be agreed to first."))
+            return False
+        self._settings.put("cotracker/checkout", self.checkout.text())
+        self._settings.put("cotracker/weights", self.weights.text())
+        made = seeding.make("cotracker", self.checkout.text() or None, checkpoint=self.weights.text())
+        return tracker.seed_by(made, self.objects())
+
+    def _optimise(self) -> bool:
+        output = self._session.project.path.with_suffix(".scene.h5")
+        seconds = 60.0 * float(self.minutes.currentData())
+        self._job = SceneJob(Path(self._session.project.info.path), output, seconds, self)
+        self._job.progressed.connect(self._progressed)
+        self._job.finished.connect(self._scene_ready)
+        self._job.failed.connect(self._failed)
+        self._job.start()
+        self.note.setText(tr("Optimising. You can close this to cancel."))
+        return True
+
+    def _scene_ready(self, path: str) -> None:
+        self.note.setText(tr("Following the points through the scene …"))
+        self._work.tracker.seed_by(seeding.make("scene", path), self.objects())
+
+    def _failed(self, sentence: str) -> None:
+        self.progress.setVisible(False)
+        self.note.setText(sentence)
 
     def _progressed(self, share: float) -> None:
         self.progress.setValue(round(100 * share))
 
-    def _seeded(self, _tracks: int) -> None:
-        if self.progress.isVisible():
+    def _seeded(self, tracks: int) -> None:
+        if not self.progress.isVisible():
+            return
+        if tracks:
             self.accept()
+        else:
+            self._failed(tr("Nothing was seeded; the line below the frame says why."))
+
+
+class _PathLine(QWidget):
+    """A path to type or to choose; without a filter a folder is meant."""
+
+    def __init__(self, hint: str, kinds: str, path: str = "") -> None:
+        super().__init__()
+        self._kinds = kinds
+        self.line = QLineEdit(path, placeholderText=hint)
+        self.line.setAccessibleName(hint)
+        button = QPushButton("…")
+        button.setAccessibleName(tr("Choose"))
+        button.setFixedWidth(32)
+        button.clicked.connect(self._choose)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self.line)
+        row.addWidget(button)
+
+    def text(self) -> str:
+        """The path, "" if there is none."""
+        return self.line.text().strip()
+
+    def _choose(self) -> None:
+        if self._kinds:
+            chosen, _ = QFileDialog.getOpenFileName(self, self.line.placeholderText(), self.text(), self._kinds)
+        else:
+            chosen = QFileDialog.getExistingDirectory(self, self.line.placeholderText(), self.text())
+        if chosen:
+            self.line.setText(chosen)
+
+

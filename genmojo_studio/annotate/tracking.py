@@ -16,9 +16,10 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.trackers.evidence import scene_of
+from genmojo_core.trackers.seeding import Queries, Seeder, proposals
 from genmojo_core.trackers.solver import SolveAnswer, SolveRequest, TrackSolver
 from genmojo_core.tracks import keys, suspicion
-from genmojo_core.tracks.annotation import KEY, Annotation, Cells
+from genmojo_core.tracks.annotation import KEY, TRACKER, Annotation, Cells, Proposal
 from genmojo_core.tracks.edits import join
 from genmojo_core.tracks.suspicion import Calibration, Evidence, Spot, Suspicion
 from genmojo_studio import notify
@@ -97,6 +98,37 @@ class Tracking(QObject):
 
         self.tasks.run(work, self._seeded, self._failed)
         return True
+
+    def seed_by(self, seeder: Seeder, objects: list[int]) -> bool:
+        """Let another tracker propose positions for the tracks of objects; False if there is nothing to seed."""
+        session, clip = self._session, self._session.clip
+        ids, queries = Queries.of(session.annotation, [i.id for o in objects for i in session.annotation.tracks_of(o)])
+        if clip is None or not ids:
+            session.said.emit(tr("The clip is still being read.") if clip is None else tr("Place points first."))
+            return False
+        self._cancelled.clear()
+        self.busy_changed.emit(tr("Seeding by {name} …").format(name=seeder.name))
+
+        def work() -> dict[int, Proposal]:
+            found = seeder.seed(clip, queries, self._progress(0, 1), self._cancelled.is_set)
+            return proposals(found, ids, seeder.name)
+
+        self.tasks.run(work, self._proposed, self._failed)
+        return True
+
+    def _proposed(self, found: dict[int, Proposal]) -> None:
+        """Keep proposals beside the tracks, and take them wherever no person said otherwise."""
+        if self._closed:
+            return
+        self.busy_changed.emit("")
+        session = self._session
+        there = {t: p for t, p in found.items() if t in session.annotation.tracks}
+        for track, proposal in there.items():
+            session.project.propose(track, proposal)
+        session.do(keys.accept(session.annotation, there, TRACKER))
+        self._stale |= {session.annotation.tracks[t].object for t in there}
+        self._look.start()
+        self.seeded.emit(len(there))
 
     def _progress(self, done: int, count: int) -> Callable[[float], None]:
         """Tells the share of the whole of one object's progress."""

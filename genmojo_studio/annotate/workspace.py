@@ -176,6 +176,9 @@ class AnnotateWorkspace(QMainWindow):
         if step.name != "objects":
             self.objects.show_tool(None)
             self.work.use_tool(None)
+        tracks = self.session.annotation.tracks
+        if place >= 2 and self.session.track is None and tracks:
+            self.session.select_track(next(iter(tracks)))
         self.restore_layout()
         self._show_steps()
         self.canvas.setFocus()

@@ -11,7 +11,8 @@ from PySide6.QtTest import QTest
 
 from genmojo_core.store.npz import read_tracks
 from genmojo_core.store.project import Project
-from genmojo_core.tracks.annotation import KEY
+from genmojo_core.tracks import keys
+from genmojo_core.tracks.annotation import KEY, TRACKER, Proposal
 from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE
 
 
@@ -62,6 +63,18 @@ def seed(workspace, qtbot):
                                 for t in workspace.session.annotation.tracks), timeout=120_000)  # fmt: skip
 
 
+def fill(workspace):
+    """Tracks that stay where they were placed and are always visible: no tracker needed. Selects the first."""
+    session = workspace.session
+    frames = session.annotation.frames
+    found = {}
+    for track in session.annotation.tracks:
+        xy = np.repeat(session.annotation.track(track).xy[:1], frames, axis=0)
+        found[track] = Proposal("still", xy, np.full(frames, VISIBLE, np.uint8), np.full(frames, 0.9, np.float32))
+    session.do(keys.accept(session.annotation, found, TRACKER))
+    session.select_track(next(iter(found)))
+
+
 def test_the_whole_path_with_mouse_and_keys(workspace, qtbot, tmp_path, monkeypatch):
     """Open, objects, points, seed, correct, states, review, export: and the file holds what was done."""
     session = workspace.session
@@ -71,7 +84,9 @@ def test_the_whole_path_with_mouse_and_keys(workspace, qtbot, tmp_path, monkeypa
     places = place_points(workspace)
     assert len(session.annotation.tracks) == len(places)
     for track, (x, y) in zip(session.annotation.tracks, places, strict=True):
-        np.testing.assert_allclose(session.annotation.track(track).xy[0], (x, y), atol=0.5 / workspace.canvas.mapping.zoom)
+        np.testing.assert_allclose(
+            session.annotation.track(track).xy[0], (x, y), atol=0.5 / workspace.canvas.mapping.zoom
+        )
     seed(workspace, qtbot)
     workspace.show_step(2)
 
@@ -111,7 +126,7 @@ def test_the_whole_path_with_mouse_and_keys(workspace, qtbot, tmp_path, monkeypa
 def test_a_state_key_held_while_stepping_paints_one_run(workspace, qtbot):
     choose_all(workspace)
     place_points(workspace, each=1)
-    seed(workspace, qtbot)
+    fill(workspace)
     workspace.show_step(2)
     session = workspace.session
     track = session.track
@@ -131,7 +146,7 @@ def test_a_state_key_held_while_stepping_paints_one_run(workspace, qtbot):
 def test_enter_stops_at_doubts_and_accepts_the_rest(workspace, qtbot):
     choose_all(workspace)
     place_points(workspace, each=1)
-    seed(workspace, qtbot)
+    fill(workspace)
     workspace.show_step(2)
     session = workspace.session
     qtbot.waitUntil(lambda: not workspace.work.tracker.tasks.busy and not workspace.work.tracker._look.isActive(),
@@ -167,6 +182,7 @@ def test_a_click_hits_the_pixel_it_shows_at_every_zoom(workspace):
 def test_zoom_survives_frame_changes_and_nudges_are_a_quarter_pixel(workspace, qtbot):
     choose_all(workspace)
     place_points(workspace, each=1)
+    fill(workspace)
     session, canvas = workspace.session, workspace.canvas
     canvas.zoom(3.0)
     zoom = canvas.mapping
@@ -183,7 +199,7 @@ def test_zoom_survives_frame_changes_and_nudges_are_a_quarter_pixel(workspace, q
 def test_the_dope_sheet_seeks_and_paints(workspace, qtbot):
     choose_all(workspace)
     place_points(workspace, each=1)
-    seed(workspace, qtbot)
+    fill(workspace)
     workspace.show_step(2)
     sheet, session = workspace.play.sheet, workspace.session
     qtbot.wait(50)
@@ -205,7 +221,7 @@ def test_the_dope_sheet_seeks_and_paints(workspace, qtbot):
 def test_review_returns_a_track_with_reason_and_run(workspace, qtbot, monkeypatch):
     choose_all(workspace)
     place_points(workspace, each=1)
-    seed(workspace, qtbot)
+    fill(workspace)
     workspace.show_step(3)
     session, track = workspace.session, workspace.session.track
     session.go(3)
@@ -233,13 +249,13 @@ def test_every_action_is_bound_and_has_no_rival(workspace):
 
 
 def test_all_that_can_be_pressed_has_a_name_and_takes_the_keyboard(workspace):
-    from PySide6.QtWidgets import QAbstractButton, QAbstractItemView, QComboBox
+    from PySide6.QtWidgets import QAbstractButton, QAbstractItemView, QComboBox, QHeaderView
 
     nameless = []
     for kind in (QAbstractButton, QAbstractItemView, QComboBox):
         for widget in workspace.findChildren(kind):
             own = widget.metaObject().className().startswith("Q") and widget.objectName().startswith("qt_")
-            if own or isinstance(widget.parent(), QComboBox) or widget.parent().metaObject().className() in (
+            if own or isinstance(widget, QHeaderView) or isinstance(widget.parent(), QComboBox) or widget.parent().metaObject().className() in (
                 "QDockWidget", "QComboBoxPrivateContainer", "QTabBar", "QTableWidget"):  # fmt: skip
                 continue
             text = widget.accessibleName() or (widget.text() if isinstance(widget, QAbstractButton) else "")
