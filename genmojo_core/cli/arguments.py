@@ -43,6 +43,14 @@ def seconds(text: str) -> float:
     return value
 
 
+def picture_size(text: str) -> tuple[int, int]:
+    """ "1920x1080" as (width, height). Raises GenmojoError("argument")."""
+    match = re.fullmatch(r"([1-9]\d{0,5})x([1-9]\d{0,5})", text.strip())
+    if match is None:
+        raise GenmojoError("argument", f"'{text}' is no picture size", "--size", "write for example 1920x1080")
+    return int(match[1]), int(match[2])
+
+
 def names(text: str) -> tuple[str, ...]:
     """ "a,b" as ("a", "b")."""
     return tuple(part.strip() for part in text.split(",") if part.strip())

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from genmojo_core.cli.arguments import frame_range, names
+from genmojo_core.cli.arguments import frame_range, names, picture_size
 from genmojo_core.cli.output import progress
 from genmojo_core.errors import GenmojoError
 
@@ -48,6 +48,11 @@ def add_commands(commands: Any) -> None:
     importer.add_argument("file", metavar="FILE|DIR")
     importer.add_argument("--from", dest="source_format", choices=list(IMPORTS), metavar="FORMAT", help=_list(IMPORTS))
     importer.add_argument("-o", "--output", required=True, metavar="FILE")
+    importer.add_argument("--size", type=picture_size, metavar="WxH", help="picture size, for tracks whose file does "
+                          "not say it")  # fmt: skip
+    importer.add_argument("--length", type=int, metavar="T", help="frames of the clip, likewise")
+    importer.add_argument("--video", metavar="NAME", help="which video of a TAP-Vid pickle")
+    importer.add_argument("--allow-pickle", action="store_true", help="open a TAP-Vid pickle in a closed process")
     importer.set_defaults(run=run_import)
 
 

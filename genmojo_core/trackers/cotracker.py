@@ -1,0 +1,177 @@
+"""CoTracker 2 and 3 from the user's own checkout and checkpoint, in a process of its own.
+
+Its code and weights are CC BY-NC 4.0 and not part of this program: the user brings them. Long clips go in windows that
+overlap, so memory stays bounded; a window begins where the last one left the points. Pixels are converted here:
+CoTracker counts from the centre of the first pixel, axes are (time, point), queries are (t, x, y).
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from genmojo_core.clip.clip import Clip
+from genmojo_core.errors import GenmojoError
+from genmojo_core.store.cotracker_npz import CENTRE, tracks_from_cotracker
+from genmojo_core.store.npz import read_arrays, write_arrays
+from genmojo_core.tracks.model import NONE, PointTracks
+
+if TYPE_CHECKING:
+    from genmojo_core.trackers.seeding import Cancelled, Progress, Queries
+
+LICENCE = (
+    "CoTracker (code and weights) is licensed CC BY-NC 4.0 by Meta: not for commercial use. It is not part of this "
+    "program; you point to a copy of your own."
+)
+HUB = "hub:"  # instead of a checkout: "hub:cotracker3_offline", downloaded by torch.hub; only with the user's consent
+_PROCESS = "genmojo_core.trackers.cotracker_process"
+_OVERLAP = 8  # frames two windows share
+
+
+@dataclass(frozen=True)
+class Limits:
+    """frames per window, GiB of address space of the child (Linux; 0: none), seconds until it is stopped."""
+
+    window: int = 64
+    memory_gib: float = 24.0
+    seconds: float = 3600.0
+
+
+class CoTrackerSeeder:
+    """Follows points with CoTracker.
+
+    Args:
+        checkout: folder that holds the package `cotracker`; or "hub:<model>" after `consent`.
+        checkpoint: its weights (.pth), None with the hub. limits: of the child.
+        consent: the user agreed that torch.hub downloads and runs code.
+    """
+
+    name, licence = "cotracker", LICENCE
+
+    def __init__(
+        self, checkout: Path, checkpoint: Path | None, limits: Limits | None = None, consent: bool = False
+    ) -> None:
+        self._hub = str(checkout)[len(HUB) :] if str(checkout).startswith(HUB) else ""
+        self._checkout, self._checkpoint, self._limits = checkout, checkpoint, limits or Limits()
+        if self._hub:
+            if not consent:
+                raise GenmojoError("argument", "would download and run code by torch.hub", "cotracker",
+                                   "agree first, or give a local checkout")  # fmt: skip
+        elif not (checkout / "cotracker" / "predictor.py").is_file():
+            raise GenmojoError("missing_package", "holds no cotracker/predictor.py", str(checkout),
+                               "give a checkout of CoTracker")  # fmt: skip
+        elif checkpoint is None or not checkpoint.is_file():
+            raise GenmojoError("missing_package", "is no checkpoint", str(checkpoint or "cotracker"),
+                               "give CoTracker's weights (.pth)")  # fmt: skip
+
+    def forecast(self, clip: Clip, queries: Queries) -> float:
+        """A guess for a CPU: start, and a second a frame."""
+        return 15.0 + 1.0 * len(clip)
+
+    def seed(
+        self, clip: Clip, queries: Queries, progress: Progress | None = None, cancelled: Cancelled | None = None
+    ) -> PointTracks:
+        """Tracks of the queries. Raises GenmojoError("missing_package") with the child's last words if it fails."""
+        size = np.array(clip.source_size, np.float64)
+        scale = np.array(clip.size, np.float64) / size
+        held = np.concatenate([queries.t[:, None], queries.xy * scale - CENTRE], axis=1)
+
+        def run(frames: np.ndarray, asked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            return self._child(frames, asked, cancelled)
+
+        xy, seen = in_windows(clip.frames, held, self._limits.window, run, progress)
+        tracks = tracks_from_cotracker(xy, seen, clip.size).resized(*clip.source_size)
+        conf = np.where(tracks.state == NONE, 0.0, np.where(tracks.visible, 0.8, 0.4)).astype(np.float32)
+        return PointTracks(tracks.xy, tracks.state, queries.object, clip.source_size, conf=conf)
+
+    def _child(
+        self, frames: np.ndarray, queries: np.ndarray, cancelled: Cancelled | None
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """One window in a process of its own: (T, N, 2) and (T, N)."""
+        with tempfile.TemporaryDirectory(prefix="genmojo-cotracker-") as folder:
+            asked, answer, words = (Path(folder) / name for name in ("asked.npz", "answer.npz", "words.txt"))
+            write_arrays(asked, {"video": frames, "queries": queries.astype(np.float32)})
+            command = [sys.executable, "-m", _PROCESS, str(asked), str(answer), str(self._checkout.absolute()),
+                       str(self._checkpoint.absolute()) if self._checkpoint else "", self._hub,
+                       str(self._limits.memory_gib)]  # fmt: skip
+            environment = os.environ | {"TORCH_FORCE_WEIGHTS_ONLY_LOAD": "1"}
+            with (
+                open(words, "wb") as said,
+                subprocess.Popen(command, stdout=said, stderr=said, env=environment) as child,
+            ):
+                self._watch(child, cancelled)
+            if child.returncode != 0 or not answer.is_file():
+                last = words.read_text(errors="replace").strip().splitlines()[-1:] or [f"exit {child.returncode}"]
+                raise GenmojoError("missing_package", f"CoTracker stopped: {last[0][:300]}", str(self._checkout),
+                                   "check checkout, checkpoint and memory")  # fmt: skip
+            arrays = read_arrays(answer)
+        shape = (len(frames), len(queries))
+        if arrays["tracks"].shape != (*shape, 2) or arrays["visibility"].shape != shape:
+            raise GenmojoError("schema", f"gave tracks {arrays['tracks'].shape} for {shape}", str(self._checkout))
+        return arrays["tracks"], arrays["visibility"].astype(bool)
+
+    def _watch(self, child: subprocess.Popen[bytes], cancelled: Cancelled | None) -> None:
+        """Wait; stop it when time is up or the user says so."""
+        until = time.monotonic() + self._limits.seconds
+        while child.poll() is None:
+            if (cancelled is not None and cancelled()) or time.monotonic() > until:
+                child.kill()
+                raise GenmojoError("argument", "was stopped before it was done", "cotracker")
+            time.sleep(0.05)
+
+
+def in_windows(
+    frames: np.ndarray,  # (T, H, W, 3) uint8
+    queries: np.ndarray,  # (N, 3) t, x, y in centre px
+    window: int,
+    run: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]],
+    progress: Progress | None = None,
+) -> tuple[np.ndarray, np.ndarray]:  # (T, N, 2), (T, N) bool
+    """Run a tracker over windows of at most `window` frames.
+
+    Each query begins in a window that holds its frame; the neighbours, which overlap by 8 frames, go on from its last
+    seen place in the shared frames. `run` gets the window's frames and queries with times counted in the window.
+    """
+    total, step = len(frames), max(window - _OVERLAP, 1)
+    starts = [0] if total <= window else [*range(0, total - window, step), total - window]
+    xy = np.full((total, len(queries), 2), np.nan, np.float32)
+    seen = np.zeros((total, len(queries)), bool)
+    known = np.zeros((total, len(queries)), bool)
+    home = [max(k for k, s in enumerate(starts) if s <= t and (t < s + window)) for t in queries[:, 0].astype(int)]
+    jobs = len(starts)
+    for turn, k in enumerate(sorted(range(jobs), key=lambda k: abs(k - home[0]) if home else k)):
+        first, end = starts[k], min(starts[k] + window, total)
+        asked = np.array([_entry(q, home[n] == k, first, end, (xy[:, n], seen[:, n], known[:, n]))
+                          for n, q in enumerate(queries)])  # fmt: skip
+        places, visible = run(frames[first:end], asked)
+        for n in range(len(queries)):
+            new = ~known[first:end, n]
+            xy[first:end, n][new], seen[first:end, n][new] = places[new, n], visible[new, n]
+            known[first:end, n] = True
+        if progress is not None:
+            progress((turn + 1) / jobs)
+    return xy, seen
+
+
+def _entry(
+    query: np.ndarray, own: bool, first: int, end: int, so_far: tuple[np.ndarray, np.ndarray, np.ndarray]
+) -> np.ndarray:  # (3,) t in the window, x, y
+    """Where a point enters a window: its query, the seen shared frame deepest in the window, or any shared one."""
+    if own:
+        return np.array([query[0] - first, query[1], query[2]])
+    xy, seen, known = so_far
+    shared = np.flatnonzero(known[first:end])
+    if not len(shared):
+        return np.array([0.0, query[1], query[2]])
+    good = shared[seen[first:end][shared]]
+    entry = int((good if len(good) else shared)[-1 if shared[0] == 0 else 0])
+    return np.array([entry, *xy[first + entry]])

@@ -1,0 +1,66 @@
+"""The child process in which CoTracker runs: arrays in, arrays out, checkpoints as weights only.
+
+    python -m genmojo_core.trackers.cotracker_process asked.npz answer.npz CHECKOUT CHECKPOINT HUB_MODEL MEMORY_GIB
+
+asked: video (T, H, W, 3) uint8, queries (N, 3) t, x, y in pixels counted from the centre of the first.
+answer: tracks (T, N, 2), visibility (T, N).
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from genmojo_core.store.npz import read_arrays, write_arrays
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Track one window; 0 when the answer is written."""
+    asked, answer, checkout, checkpoint, hub, memory = arguments
+    _limit_memory(float(memory))
+    import torch
+
+    arrays = read_arrays(asked)
+    video = torch.from_numpy(np.array(arrays["video"])).permute(0, 3, 1, 2)[None].float()  # (1, T, 3, H, W) 0..255
+    queries = torch.from_numpy(np.array(arrays["queries"], np.float32))[None]  # (1, N, 3) t, x, y
+    model = _from_hub(torch, hub) if hub else _from_checkout(checkout, checkpoint)
+    if torch.cuda.is_available():
+        model, video, queries = model.to("cuda"), video.to("cuda"), queries.to("cuda")
+    with torch.no_grad():
+        tracks, visibility = model(video, queries=queries, backward_tracking=True)
+    write_arrays(answer, {"tracks": tracks[0].cpu().numpy(), "visibility": visibility[0].cpu().numpy() > 0.5})
+    return 0
+
+
+def _from_checkout(checkout: str, checkpoint: str) -> Any:
+    """The predictor of a local checkout. CoTracker 2 weights are told by their name, as its own demo does."""
+    sys.path.insert(0, checkout)
+    from cotracker.predictor import CoTrackerPredictor
+
+    second = "cotracker2" in Path(checkpoint).stem or "v2" in Path(checkpoint).stem
+    options: dict[str, Any] = {"offline": True, "window_len": 60}
+    if second:
+        options = {"v2": True, "offline": True, "window_len": 8}
+    return CoTrackerPredictor(checkpoint=checkpoint, **options)
+
+
+def _from_hub(torch: Any, name: str) -> Any:
+    """The model of that name by torch.hub; the parent starts this only after the user agreed."""
+    return torch.hub.load("facebookresearch/co-tracker", name, trust_repo=True)
+
+
+def _limit_memory(gib: float) -> None:
+    """Bound the address space where the system can, so that a long clip ends this process and no other."""
+    if gib <= 0 or not sys.platform.startswith("linux"):
+        return
+    import resource
+
+    resource.setrlimit(resource.RLIMIT_AS, (int(gib * 2**30), int(gib * 2**30)))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
