@@ -22,6 +22,7 @@ from genmojo_studio.view3d.frames import Feeder, FrameReport, FrameRequest
 from genmojo_studio.view3d.look import SCALAR_MODES, Mode
 from genmojo_studio.view3d.quality import FULL, Detail
 
+LARGEST_PIXELS = 1 << 26
 _EMPTY = QColor(16, 17, 19)
 
 
@@ -115,7 +116,10 @@ class Drawer:
             self._wake.notify()
 
     def image(self, request: FrameRequest, view: View) -> np.ndarray:  # (H, W, 4) uint8
-        """A picture at once, on the calling thread."""
+        """A picture at once, on the calling thread. Raises GenmojoError where it would not fit into memory."""
+        if view.width * view.height > LARGEST_PIXELS:
+            raise GenmojoError("budget", f"a picture of {view.width} x {view.height} pixels is more than the processor "
+                               "draws", "3D view", "choose a smaller size")  # fmt: skip
         with self._busy:
             self._feeder.feed(self._painter, request)
             sums = self._painter.picture(view, request.look, request.t).sums

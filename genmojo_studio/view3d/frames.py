@@ -82,10 +82,11 @@ class Feeder:
             self._snapshot, self._errors_of = request.snapshot, ()
         if request.look.mode != Mode.RESIDUAL or request.input_image is None:
             return
-        key = (int(request.t), id(request.input_image))
+        picture = request.input_image
+        key = (int(request.t), picture.shape, int(picture[::16, ::16].sum()))
         if key != self._errors_of:
             moment = request.snapshot.at(int(request.t))
             engine.set_residuals(
-                residuals(moment, request.input_image, lambda view, look: engine.picture(view, look, int(request.t)))
+                residuals(moment, picture, lambda view, look: engine.picture(view, look, int(request.t)))
             )
             self._errors_of = key

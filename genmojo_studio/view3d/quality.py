@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-MOVING_MS = 100.0  # a frame while moving takes no longer than this
-_EASY_MS = 45.0  # faster than this, the next finer step is tried
+MOVING_MS = 100.0  # a frame while moving takes no longer than this where the processor draws
+SMOOTH_MS = 33.0  # and where a graphics card does
+_EASY = 0.45  # faster than this share of the limit, the next finer step is tried
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,7 @@ class Detail:
         if ms > self.limit_ms:
             self._slow = max(self._slow, self._step)
             self._step = min(self._step + (2 if ms > 2 * self.limit_ms else 1), len(STEPS) - 1)
-        elif ms < _EASY_MS and self._step > self._slow + 1:
+        elif ms < _EASY * self.limit_ms and self._step > self._slow + 1:
             self._step -= 1
 
 

@@ -21,7 +21,7 @@ from genmojo_core.clip.cameras import View
 from genmojo_core.errors import GenmojoError
 from genmojo_studio.view3d.frames import Feeder, FrameReport, FrameRequest
 from genmojo_studio.view3d.look import SCALAR_MODES
-from genmojo_studio.view3d.quality import FULL, Detail, Quality
+from genmojo_studio.view3d.quality import FULL, MOVING_MS, SMOOTH_MS, Detail, Quality
 from genmojo_studio.view3d.renderer import SplatRenderer
 
 _PATIENCE_MS = 1500  # a context is there by then, or never
@@ -75,6 +75,7 @@ class SplatView(QOpenGLWidget):
             moderngl.init_context()  # create_context() crashes in a second view on EGL
             self._ctx = moderngl.get_context()
             self.renderer = SplatRenderer(self._ctx, self._order_ready.emit)
+            self._detail = Detail(MOVING_MS if self.renderer.is_software else SMOOTH_MS)
         except (GenmojoError, moderngl.Error, KeyError, ValueError, OSError) as error:
             self._ctx, self.renderer = None, None
             self.failed.emit(str(error).splitlines()[0])
@@ -130,8 +131,7 @@ class SplatView(QOpenGLWidget):
         renderer.draw(request.view(*target.size), request.look, request.t, quality)
         bounds = self._scale(renderer, request)
         renderer.resolve(target, request.look, bounds)
-        if renderer.is_software:
-            renderer.ctx.finish()  # else the time would be somebody else's
+        renderer.ctx.finish()  # else the time would be somebody else's
         ms = (time.perf_counter() - start) * 1e3
         return FrameReport(request, ms, quality, bounds, renderer.order_is_exact)
 

@@ -24,6 +24,7 @@ from genmojo_studio.view3d.frames import FrameReport
 from genmojo_studio.view3d.gl_probe import GlKind, probe
 from genmojo_studio.view3d.look import Look, Mode
 from genmojo_studio.view3d.orbit import Orbit
+from genmojo_studio.view3d.overlay import axes_of, axis_ends
 from genmojo_studio.view3d.picking import Pick
 from genmojo_studio.view3d.scene_view import SceneView
 from genmojo_studio.view3d.snapshot import SceneSnapshot
@@ -114,6 +115,13 @@ def life(engine: str) -> dict:
     answer["picks_after_drag"] = len(picks)
     watched.after(lambda: view.preset("right_30"))
     answer["preset"] = [view.orbit.elevation, view.orbit.azimuth]
+    axis = next(place for place, _, name, _ in axis_ends(view.overlay.gizmo_rect(), axes_of(watched.reports[-1]))
+                if name == "top")  # fmt: skip
+    spot = axis.toPoint()
+    watched.after(lambda: QTest.mouseClick(view, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, spot))
+    answer["gizmo"] = [view.orbit.elevation, view.orbit.azimuth]
+    answer["picks_after_gizmo"] = len(picks)
+    watched.after(lambda: view.set_orbit(Orbit()))
     before = shown(view)
     watched.after(lambda: view.set_time(3.0))
     answer["time_changes_it"] = decibels(before, shown(view))
