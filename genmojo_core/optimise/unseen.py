@@ -1,7 +1,8 @@
 """The prior's part in a run: which frames and objects it speaks for, first Gaussians of unseen sides, its loss.
 
 Each step one object (or all) is shown to the prior alone, in the prior's space, from views around one of its good
-frames (METHOD.md sections 2 and 5). No gradient reaches the placement: the prior knows shapes, not places.
+frames (METHOD.md sections 2 and 5). No gradient reaches the placement: the prior knows shapes, not places. Where the
+prior gave Gaussians of its own, only those (and what grows later) follow it; what frames show is theirs alone.
 """
 
 from __future__ import annotations
@@ -88,6 +89,7 @@ class UnseenViews:
         self.subjects = [_subject(clip, lifted, group) for group in groups]
         self.seen: list[tuple[float, float, int]] = []
         self.best, self.share = 0.0, 0.0
+        self.first_free: dict[int, int] = {}  # by object id: Gaussians with smaller uids are the frames' alone
         if isinstance(prior, EmbeddedPrior) and not everything:
             for one in self.subjects:
                 self._complete(prior, one, motions[one.clip_indices[0]], lifted)
@@ -173,7 +175,9 @@ class UnseenViews:
         bent = state.deformation
         log_scales = model.gaussians.log_scales if bent is None else model.gaussians.log_scales + bent.d_log_scales
         scales = scale * safemath.exp_scale(log_scales)
-        return means, quats, scales, model.gaussians.opacities(), state.rgb * self._light(t)
+        columns = (means, quats, scales, model.gaussians.opacities(), state.rgb * self._light(t))
+        free = model.gaussians.uid >= self.first_free.get(model.id, 0)
+        return tuple(torch.where(free.reshape(-1, *[1] * (c.dim() - 1)), c, c.detach()) for c in columns)
 
     def _complete(self, prior: EmbeddedPrior, one: Subject, motion: Moves, lifted: Lifted) -> None:
         """Add Gaussians where the volume has surface that no frame shows and none contradicts."""
@@ -197,7 +201,9 @@ class UnseenViews:
         rows = np.flatnonzero(keep)
         if len(rows) > count:
             rows = np.random.default_rng(self.config.seed).permutation(rows)[:count]
-        _add(gaussians, selected(points, rows), lifted.frames_of[lifted.rows[k]], self._light(one.home))
+        if len(rows):
+            self.first_free[one.models[0].id] = gaussians.next_uid
+            _add(gaussians, selected(points, rows), lifted.frames_of[lifted.rows[k]], self._light(one.home))
 
     def _light(self, t: int) -> Tensor | float:
         return 1.0 if self.scene.gain is None else self.scene.gain(t).detach()
@@ -256,8 +262,6 @@ def _object_to_prior(model: ObjectModel, placed: PlacedReference, t: int) -> tup
 
 def _add(gaussians: Gaussians, points: Points, frame: tuple[np.ndarray, float], light: Tensor | float) -> None:
     """Append world points (at the canonical frame) to an object's Gaussians."""
-    if not len(points):
-        return
     centre, size = frame
     rotations, sigmas = surface_axes(points.tangents)
     axes = _tensor(matrix_to_quaternion(rotations)), _tensor(sigmas / size)

@@ -121,3 +121,16 @@ def test_methods_are_configurations(clip):
         assert isinstance(run.objective, SeparateObjective) == (name == "dreamscene4d")
         assert (run.unseen is None) == (name == "shape-of-motion")
     assert small_config(method="dreamscene4d").method == "dreamscene4d"
+
+
+def test_what_frames_show_does_not_follow_the_prior(clip, untrained):
+    run = made(clip, untrained)
+    run.optimiser.zero_grad(set_to_none=True)
+    outcome = type("Outcome", (), {"loss": torch.zeros(()), "parts": {}})()
+    for step in range(6):
+        run.unseen.add_to(outcome, Moment(0.1, False, step), 1.0, torch.Generator().manual_seed(0))
+    outcome.loss.backward()
+    for model in run.scene.objects:
+        gradient, first = model.gaussians.means.grad, run.unseen.first_free.get(model.id)
+        if gradient is not None and first is not None:
+            assert not gradient[model.gaussians.uid < first].any() and gradient[model.gaussians.uid >= first].any()
