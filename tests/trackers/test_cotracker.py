@@ -1,0 +1,105 @@
+"""CoTracker through its child process, against a stand-in with the real interface: axis orders, half pixels, windows,
+weights only, faults in one sentence. Not covered: CoTracker itself."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from genmojo_core.clip.clip import Clip
+from genmojo_core.errors import GenmojoError
+from genmojo_core.trackers.cotracker import CoTrackerSeeder, Limits, in_windows
+from genmojo_core.trackers.seeding import Queries, make
+from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE
+
+STAND_IN = '''
+import torch
+
+class CoTrackerPredictor(torch.nn.Module):
+    """Moves every point 2 px right and 1 px down a frame; hides it from frame 6; checks what it is given."""
+
+    def __init__(self, checkpoint="x", offline=True, v2=False, window_len=60):
+        super().__init__()
+        self.speed = torch.nn.Parameter(torch.load(checkpoint)["speed"])
+
+    @torch.no_grad()
+    def forward(self, video, queries=None, segm_mask=None, grid_size=0, grid_query_frame=0, backward_tracking=False):
+        B, T, C, H, W = video.shape
+        if (B, C, H, W) != (1, 3, 40, 60) or video.dtype != torch.float32 or not backward_tracking:
+            raise ValueError(f"video {tuple(video.shape)} {video.dtype}")
+        if video.max() <= 1.0 or video[0, 0, 0].mean() < video[0, 0, 2].mean():
+            raise ValueError("expected 0..255 and RGB")
+        t = torch.arange(T, dtype=torch.float32)[None, :, None, None]
+        tracks = queries[:, None, :, 1:] + (t - queries[:, None, :, :1]) * self.speed
+        visibility = (t[..., 0] < 6).expand(B, T, queries.shape[1])
+        return tracks, visibility
+'''
+
+
+@pytest.fixture()
+def checkout(tmp_path: Path) -> tuple[Path, Path]:
+    torch = pytest.importorskip("torch")
+    package = tmp_path / "checkout" / "cotracker"
+    package.mkdir(parents=True)
+    (package / "__init__.py").write_text("")
+    (package / "predictor.py").write_text(STAND_IN)
+    weights = tmp_path / "scaled_offline.pth"
+    torch.save({"speed": torch.tensor([2.0, 1.0])}, weights)
+    return package.parent, weights
+
+
+def red_clip(frames: int = 10) -> Clip:
+    """Held at half the size of its source."""
+    pictures = np.zeros((frames, 40, 60, 3), np.uint8)
+    pictures[..., 0] = 200
+    return Clip("red", "procedural", pictures, np.arange(frames), np.arange(frames) / 24.0,
+                tuple(map(str, range(frames))), (120, 80))  # fmt: skip
+
+
+def test_axes_pixels_and_states_are_converted_exactly(checkout: tuple[Path, Path]) -> None:
+    seeder = make("cotracker", checkout[0], checkpoint=str(checkout[1]))
+    queries = Queries(np.array([0, 3]), np.array([[20.0, 10.0], [112.0, 30.0]]), np.array([1, 2]))
+    tracks = seeder.seed(red_clip(), queries)
+    frames = np.arange(10)
+    expected = queries.xy[:, None] + (frames[None] - queries.t[:, None])[..., None] * np.array([4.0, 2.0])
+    assert np.abs(tracks.xy - expected).max() < 1e-4
+    assert tracks.state[0].tolist() == [VISIBLE] * 6 + [OCCLUDED] * 4
+    assert tracks.state[1, 9] == OUT_OF_VIEW
+    assert tracks.object.tolist() == [1, 2]
+    assert "CC BY-NC" in seeder.licence
+
+
+def test_long_clips_go_in_windows_that_continue_one_another(checkout: tuple[Path, Path]) -> None:
+    limits = Limits(window=20)
+    frames = np.zeros((50, 4, 4, 3), np.uint8)
+    lengths = []
+
+    def run(part: np.ndarray, asked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        lengths.append(len(part))
+        t = np.arange(len(part))[:, None, None]
+        return asked[None, :, 1:] + (t - asked[None, :, :1]) * 3.0, np.ones((len(part), len(asked)), bool)
+
+    for start in (0, 17, 49):
+        xy, seen = in_windows(frames, np.array([[start, 5.0, 6.0]]), limits.window, run)
+        assert np.allclose(xy[:, 0], np.array([5.0, 6.0]) + (np.arange(50)[:, None] - start) * 3.0)
+        assert seen.all()
+    assert max(lengths) == 20
+
+
+def test_a_checkpoint_that_would_run_code_is_refused(checkout: tuple[Path, Path]) -> None:
+    torch = pytest.importorskip("torch")
+    torch.save({"speed": Path("x")}, checkout[1])  # any class at all
+    queries = Queries(np.array([0]), np.array([[20.0, 10.0]]), np.array([1]))
+    with pytest.raises(GenmojoError, match="CoTracker stopped"):
+        CoTrackerSeeder(*checkout).seed(red_clip(), queries)
+
+
+def test_what_is_missing_is_said(tmp_path: Path, checkout: tuple[Path, Path]) -> None:
+    with pytest.raises(GenmojoError, match="holds no cotracker/predictor.py"):
+        CoTrackerSeeder(tmp_path, checkout[1])
+    with pytest.raises(GenmojoError, match="no checkpoint"):
+        CoTrackerSeeder(checkout[0], tmp_path / "none.pth")
+    with pytest.raises(GenmojoError, match="agree first"):
+        make("cotracker", "hub:cotracker3_offline")
