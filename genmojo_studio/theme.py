@@ -181,6 +181,12 @@ QGroupBox::title { subcontrol-origin: margin; left: 9px; padding: 0 4px; color: 
 QProgressBar { background: @field@; border: 1px solid @line@; border-radius: 4px; text-align: center; }
 QProgressBar::chunk { background: @chunk@; border-radius: 3px; }
 QScrollArea, QScrollArea > QWidget > QWidget { background: transparent; border: none; }
+QScrollBar { background: @panel@; border: none; margin: 0; }
+QScrollBar:vertical { width: 11px; } QScrollBar:horizontal { height: 11px; }
+QScrollBar::handle { background: @line@; border-radius: 4px; margin: 2px; min-height: 24px; min-width: 24px; }
+QScrollBar::handle:hover { background: @dim@; }
+QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
+QScrollBar::add-page, QScrollBar::sub-page { background: transparent; }
 QLabel[role="dim"] { color: @dim@; } QLabel[role="good"] { color: @good@; }
 QLabel[role="warn"] { color: @warn@; } QLabel[role="bad"] { color: @bad@; }
 QLabel[role="title"] { font-size: 20pt; font-weight: 600; } QLabel[role="heading"] { font-weight: 600; }

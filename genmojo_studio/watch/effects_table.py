@@ -10,10 +10,11 @@ from typing import Any
 
 from PySide6.QtCore import QProcess, Qt, Signal
 from PySide6.QtGui import QFont
-from PySide6.QtWidgets import QTreeWidget, QTreeWidgetItem, QWidget
+from PySide6.QtWidgets import QHeaderView, QTreeWidget, QTreeWidgetItem, QWidget
 
 from genmojo_studio.translate import tr
 
+_AS_WIDE = QHeaderView.ResizeMode.ResizeToContents
 _NAME = Qt.ItemDataRole.UserRole
 
 
@@ -32,6 +33,9 @@ class EffectsTable(QTreeWidget):
         self.setHeaderLabels([tr("Effect"), tr("Evidence"), tr("Cost")])
         self.setRootIsDecorated(False)
         self.setUniformRowHeights(True)
+        self.header().setStretchLastSection(False)
+        for column, how in enumerate((_AS_WIDE, QHeaderView.ResizeMode.Stretch, _AS_WIDE)):
+            self.header().setSectionResizeMode(column, how)
         self.rows: list[dict[str, Any]] = []
         self.guesses: list[str] = []
         self.frames = 0
@@ -65,8 +69,6 @@ class EffectsTable(QTreeWidget):
         for row in self.rows:
             self.addTopLevelItem(_item(row))
         self.blockSignals(False)
-        self.setColumnWidth(0, 165)
-        self.setColumnWidth(1, 150)
 
     def chosen(self) -> list[dict[str, Any]]:
         """The rows with `on` as the boxes say."""

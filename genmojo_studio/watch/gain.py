@@ -51,7 +51,7 @@ def expected(curve: Sequence[tuple[float, float]], seconds: float = 60.0) -> Gai
     spread_x = float(((x - x.mean()) ** 2).sum())
     if spread_x < 1e-12:
         return None
-    slope = float(((x - x.mean()) * (y - y.mean())).sum() / spread_x)
+    slope = max(float(((x - x.mean()) * (y - y.mean())).sum() / spread_x), 0.0)  # a run keeps what it has
     level = float(y.mean() - slope * x.mean())
     rest = y - level - slope * x
     error = math.sqrt(float((rest**2).sum()) / max(len(tail) - 2, 1) / spread_x)

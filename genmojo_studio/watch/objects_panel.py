@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QIcon, QPixmap
 from PySide6.QtWidgets import (
     QColorDialog,
+    QGridLayout,
     QHBoxLayout,
     QHeaderView,
     QLabel,
@@ -54,16 +55,18 @@ class ObjectsPanel(QWidget):
         self.explode = QSlider(Qt.Orientation.Horizontal)
         self.explode.setRange(0, 200)
         self.explode.setToolTip(tr("Moves the objects apart"))
-        buttons = QHBoxLayout()
-        for text, call in (
-            (tr("Solo"), lambda: actions.trigger("view.solo")),
-            (tr("Tint…"), self._tint),
-            (tr("All"), lambda: actions.trigger("view.all")),
-            (tr("Edit this mask…"), lambda: actions.trigger("view.edit_mask")),
+        buttons = QGridLayout()
+        for i, (text, call) in enumerate(
+            (
+                (tr("Solo"), lambda: actions.trigger("view.solo")),
+                (tr("All"), lambda: actions.trigger("view.all")),
+                (tr("Tint…"), self._tint),
+                (tr("Edit this mask…"), lambda: actions.trigger("view.edit_mask")),
+            )
         ):
             button = QPushButton(text)
             button.clicked.connect(call)
-            buttons.addWidget(button)
+            buttons.addWidget(button, i // 2, i % 2)
         apart = QHBoxLayout()
         apart.addWidget(QLabel(tr("Apart")))
         apart.addWidget(self.explode, 1)

@@ -140,10 +140,10 @@ class WatchWorkspace(QMainWindow):
             "view": self._dock("view", tr("View"), scrolled(self.view_panel), left),
             "objects": self._dock("objects", tr("Objects"), self.objects_panel, left),
             "run": self._dock("run", tr("Run"), self.run_tabs, right),
-            "curves": self._dock("curves", tr("Curves"), self.curves, bottom),
-            "picking": self._dock("picking", tr("Picked Gaussian"), self.picking, bottom),
-            "tracks": self._dock("tracks", tr("Point tracks"), self.tracks, bottom),
-            "compare": self._dock("compare", tr("Compare scenes"), self.compare, bottom),
+            "curves": self._dock("curves", tr("Curves"), scrolled(self.curves, True), bottom),
+            "picking": self._dock("picking", tr("Picked Gaussian"), scrolled(self.picking, True), bottom),
+            "tracks": self._dock("tracks", tr("Point tracks"), scrolled(self.tracks, True), bottom),
+            "compare": self._dock("compare", tr("Compare scenes"), scrolled(self.compare, True), bottom),
         }
         for name in ("picking", "tracks", "compare"):
             self.tabifyDockWidget(self.docks["curves"], self.docks[name])

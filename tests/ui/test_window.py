@@ -164,3 +164,29 @@ def test_references_to_none_stay_over_many_repaints(window, qapp, count):
         if i % 10 == 0:
             qapp.processEvents()
     assert sys.getrefcount(None) > before - 200
+
+
+def test_docks_float_and_come_back_many_times_without_anything_left_behind(window, qapp):
+    window.show_workspace("watch")
+    watch = window.workspaces["watch"]
+    qapp.processEvents()
+    before = len(qapp.allWidgets())
+    for _ in range(25):
+        for name in ("curves", "objects"):
+            watch.docks[name].setFloating(True)
+            qapp.processEvents()
+            watch.docks[name].setFloating(False)
+            qapp.processEvents()
+    assert len(qapp.allWidgets()) <= before + 4
+
+
+def test_a_run_that_goes_on_is_asked_about_when_the_window_closes(window, monkeypatch):
+    from genmojo_studio.watch import workspace
+
+    window.show_workspace("watch")
+    answers = [False, True]
+    monkeypatch.setattr(workspace, "may_leave", lambda _control, _parent: answers.pop(0))
+    window.close()
+    assert window.isVisible() and answers == [True]
+    window.close()
+    assert not window.isVisible()
