@@ -32,7 +32,8 @@ def workspace(qapp, qtbot, clip_folder, tmp_path):
     qtbot.addWidget(made)
     made.resize(1400, 860)
     made.show()
-    qtbot.waitExposed(made)
+    made.activateWindow()  # keys reach only the active window
+    qtbot.waitActive(made)
     made.open_with(open_session(state, clip_folder, "Ada", tmp_path / "a.genmojo"))
     menus.set_workspace("annotate")
     qtbot.waitUntil(lambda: bool(made.objects.figures), timeout=60_000)
