@@ -1,0 +1,90 @@
+"""Who worked how long on a project: from its log, pauses left out; and copies of projects without names.
+
+Times and names are data about people: they are exported only where the project's note `consent` is "yes".
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import sqlite3
+from collections.abc import Sequence
+from contextlib import closing
+from dataclasses import asdict, dataclass, replace
+from datetime import datetime
+from pathlib import Path
+
+from genmojo_core.errors import GenmojoError
+from genmojo_core.store import project_file
+from genmojo_core.store.atomic import write_bytes
+from genmojo_core.store.project_log import COLUMNS, Row
+
+IDLE_SECONDS = 60.0  # a pause longer than this is no work; what came before it counts that long
+
+
+@dataclass(frozen=True)
+class WorkDay:
+    """A person's work on one day (UTC): seconds, edits, keys placed, undone steps, tracks touched."""
+
+    person: str
+    day: str
+    seconds: float
+    edits: int
+    keys: int
+    undone: int
+    tracks: int
+
+
+def time_sheet(rows: Sequence[Row], idle: float = IDLE_SECONDS) -> list[WorkDay]:
+    """Work per person and day, oldest first. What machines add within a step counts as the person's."""
+    groups: dict[tuple[str, str], list[Row]] = {}
+    for row in rows:
+        groups.setdefault((row.who, row.at[:10]), []).append(row)
+    sheet = []
+    for (who, day), mine in sorted(groups.items(), key=lambda g: (g[0][1], g[0][0])):
+        stamps = [datetime.fromisoformat(row.at).timestamp() for row in mine]
+        gaps = [max(later - earlier, 0.0) for earlier, later in zip(stamps[:-1], stamps[1:], strict=True)]
+        seconds = sum(min(gap, idle) for gap in gaps) + min(idle, 5.0)
+        sheet.append(WorkDay(who, day, seconds, sum(r.verb == "do" for r in mine), sum(r.kind == "key" for r in mine),
+                             sum(r.kind == "undo" for r in mine),
+                             len({r.track for r in mine if r.track is not None})))  # fmt: skip
+    return sheet
+
+
+def write_time_sheet(rows: Sequence[Row], consent: str, path: str | Path) -> None:
+    """The time sheet as csv. Raises GenmojoError("argument") without consent, "io"."""
+    if consent != "yes":
+        raise GenmojoError("argument", "has no consent to export times of people", str(path),
+                           "ask them and set the consent flag")  # fmt: skip
+    out = io.StringIO()
+    writer = csv.DictWriter(out, list(WorkDay.__dataclass_fields__), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(asdict(day) for day in time_sheet(rows))
+    write_bytes(path, out.getvalue().encode())
+
+
+def without_people(path: str | Path, target: str | Path) -> None:
+    """A copy of a project in which no person is named and no time of day stands; its chain of hashes is made anew.
+
+    Raises GenmojoError("io", "format", "corrupt").
+    """
+    project_file.copy(Path(path), Path(target))
+    loaded = project_file.load(Path(target))
+    people = {name for info in loaded.annotation.tracks.values() for name in (info.person, info.reviewer) if name}
+    with closing(sqlite3.connect(target, isolation_level=None)) as connection:
+        connection.execute("BEGIN IMMEDIATE")
+        chain = b""
+        for *columns, payload in connection.execute(f"SELECT {COLUMNS}, payload FROM edits ORDER BY seq").fetchall():
+            bare = replace(Row(*columns), who="", at=str(columns[COLUMNS.split(", ").index("at")])[:10])
+            clean = project_file.payload_without(payload, bare, people)
+            chain = bare.hash(clean, chain)
+            connection.execute("UPDATE edits SET who = '', at = ?, payload = ?, hash = ? WHERE seq = ?",
+                               (bare.at, clean, chain, bare.seq))  # fmt: skip
+        connection.execute("DELETE FROM blobs WHERE name LIKE 'snapshot:%'")
+        for table in ("tracks", "objects"):
+            for number, data in connection.execute(f"SELECT id, data FROM {table}").fetchall():
+                for name in people:
+                    data = data.replace(f'"{name}"', '""')
+                connection.execute(f"UPDATE {table} SET data = ? WHERE id = ?", (data, number))
+        connection.execute("COMMIT")
+        connection.execute("VACUUM")

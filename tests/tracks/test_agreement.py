@@ -1,0 +1,115 @@
+"""Two annotators: exact agreement figures, three-way merge that loses nobody's work, statistics, time sheets."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import annotations
+import numpy as np
+import pytest
+
+from genmojo_core.errors import GenmojoError
+from genmojo_core.store import project_file, time_sheet
+from genmojo_core.store.edit_codec import decode_annotation, encode_annotation
+from genmojo_core.store.project import Project, info_of
+from genmojo_core.store.project_log import Row
+from genmojo_core.tracks import edit_tracks, keys, statistics
+from genmojo_core.tracks.agreement import agreement, merge, preview
+from genmojo_core.tracks.annotation import Annotation, ObjectInfo
+from genmojo_core.tracks.edits import set_meta
+from genmojo_core.tracks.model import OCCLUDED
+
+
+def filled() -> Annotation:
+    """Every track visible in all frames, keys at both ends."""
+    annotation = annotations.started(12, 2, 3)
+    for track in annotation.tracks:
+        for t in (0, 11):
+            keys.set_key(annotation, track, t, (200.0 + 50 * track + 10 * t, 300.0)).do(annotation)
+    return annotation
+
+
+def copied(annotation: Annotation) -> Annotation:
+    return decode_annotation(encode_annotation(annotation))
+
+
+def test_the_same_annotation_agrees_wholly() -> None:
+    figures = agreement(filled(), filled())
+    assert figures["aj"] == figures["oa"] == figures["delta"] == 100
+    assert figures["median_px"] == 0
+    assert figures["states"] == 1
+
+
+def test_a_constant_offset_is_measured_in_pixels_of_1080p() -> None:
+    mine, theirs = filled(), filled()
+    for track in theirs.tracks:
+        cells = theirs.cells(track, np.arange(12))
+        cells.xy[:] += np.float32((3.0, 4.0))
+        theirs.write_cells(track, np.arange(12), cells)
+    assert agreement(mine, theirs)["median_px"] == pytest.approx(5.0, abs=1e-4)
+
+
+def test_a_merge_keeps_what_either_side_did_alone_and_asks_about_the_rest() -> None:
+    base = filled()
+    mine, theirs = copied(base), copied(base)
+    keys.set_key(mine, 1, 5, (999.0, 99.0)).do(mine)
+    keys.set_key(theirs, 2, 5, (888.0, 88.0)).do(theirs)
+    keys.set_key(mine, 3, 5, (500.0, 50.0)).do(mine)
+    keys.set_key(theirs, 3, 5, (540.0, 50.0)).do(theirs)
+    keys.set_state(theirs, 4, 3, 6, OCCLUDED).do(theirs)
+    runs = preview(base, mine, theirs)
+    assert {(r.track, r.kind) for r in runs} == {(1, "mine"), (2, "theirs"), (3, "conflict"), (4, "theirs")}
+    asked = {n: "middle" for n, r in enumerate(runs) if r.kind == "conflict"}
+    before = mine.digest()
+    edit = merge(mine, theirs, runs, asked)
+    edit.do(mine)
+    assert mine.track(1).xy[5].tolist() == [999.0, 99.0]
+    assert mine.track(2).xy[5].tolist() == [888.0, 88.0]
+    assert mine.track(3).xy[5].tolist() == [520.0, 50.0]
+    assert mine.track(4).state[3:7].tolist() == [OCCLUDED] * 4
+    edit.undo(mine)
+    assert mine.digest() == before
+
+
+def test_annotations_of_other_clips_are_refused() -> None:
+    with pytest.raises(GenmojoError, match="12 frames"):
+        agreement(annotations.started(10), filled())
+
+
+def test_statistics_count_what_is_there() -> None:
+    annotation = filled()
+    keys.set_state(annotation, 1, 6, 11, OCCLUDED).do(annotation)
+    figures = statistics.track_figures(annotation, 1)
+    assert (figures["keys"], figures["occluded"], figures["annotated"]) == (2, 0.5, 1.0)
+    whole = statistics.clip_figures(annotation)
+    assert whole["tracks"] == 6
+    assert whole["motion"] == pytest.approx(10 * 256 / 1920, rel=1e-5)
+
+
+def test_pauses_are_no_work() -> None:
+    def row(seq: int, at: str) -> Row:
+        return Row(seq, seq - 1, seq, "do", "key", "", 0, 1, "Ada", f"2026-01-05T{at}+00:00", "1")
+
+    stamps = ("10:00:00", "10:00:10", "10:30:00", "10:30:20")
+    (day,) = time_sheet.time_sheet([row(n + 1, at) for n, at in enumerate(stamps)])
+    assert (day.person, day.keys, day.seconds) == ("Ada", 4, 10 + 60 + 20 + 5)
+
+
+def test_times_need_consent_and_names_can_be_taken_out(tmp_path: Path) -> None:
+    project = Project.create(tmp_path / "p.genmojo", info_of(12, annotations.SIZE), person="Ada Lovelace")
+    project.do(edit_tracks.put_objects(project.annotation, [ObjectInfo(1, "dog", 1, "chosen")]))
+    project.do(edit_tracks.add_track(project.annotation, 1, 1, person="Ada Lovelace"))
+    project.do(keys.set_key(project.annotation, 1, 3, (5.0, 6.0)))
+    with pytest.raises(GenmojoError, match="no consent"):
+        time_sheet.write_time_sheet(project.log.rows, "", tmp_path / "t.csv")
+    project.do(set_meta(project.annotation, "consent", "yes"))
+    time_sheet.write_time_sheet(project.log.rows, project.annotation.meta["consent"], tmp_path / "t.csv")
+    assert "Ada Lovelace" in (tmp_path / "t.csv").read_text()
+    project.close()
+    time_sheet.without_people(tmp_path / "p.genmojo", tmp_path / "bare.genmojo")
+    assert b"Lovelace" not in (tmp_path / "bare.genmojo").read_bytes()
+    assert project_file.verify(tmp_path / "bare.genmojo") == []
+    bare = Project.open(tmp_path / "bare.genmojo", backup=False)
+    assert bare.annotation.track(1).xy[3].tolist() == [5.0, 6.0]
+    assert bare.annotation.tracks[1].person == ""
+    bare.close()
