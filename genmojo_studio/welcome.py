@@ -44,21 +44,7 @@ class Welcome(QWidget):
         self.recent.itemClicked.connect(self._open_recent)
         self.demo_button = _card_button(tr("Open the demo clip"), self.demo_wanted.emit)
         self.demo_button.setDefault(True)
-        cards = QHBoxLayout()
-        for heading, text, button in (
-            (tr("Try it"), tr("Shapes that cross and hide one another, made on the spot."), self.demo_button),
-            (
-                tr("Your own clip"),
-                tr("A folder of images. Masks, depth and cameras beside it are used if they are there."),
-                _card_button(tr("Open clip folder…"), self.folder_wanted.emit),
-            ),
-            (
-                tr("A file"),
-                tr("A video, a scene (.h5), an annotation project (.genmojo) or a splat (.ply)."),
-                _card_button(tr("Open file…"), self.file_wanted.emit),
-            ),
-        ):
-            cards.addWidget(_card(heading, text, button))
+        cards = self._cards()
         drop = QLabel(
             tr("Or drop a folder or a file anywhere on the window.  Ctrl+K finds every command, F1 every key.")
         )
@@ -82,6 +68,24 @@ class Welcome(QWidget):
         for side in (0, 2):
             outer.setColumnStretch(side, 1)
         outer.setColumnStretch(1, 12)
+
+    def _cards(self) -> QHBoxLayout:
+        cards = QHBoxLayout()
+        for heading, text, button in (
+            (tr("Try it"), tr("Shapes that cross and hide one another, made on the spot."), self.demo_button),
+            (
+                tr("Your own clip"),
+                tr("A folder of images. Masks, depth and cameras beside it are used if they are there."),
+                _card_button(tr("Open clip folder…"), self.folder_wanted.emit),
+            ),
+            (
+                tr("A file"),
+                tr("A video, a scene (.h5), an annotation project (.genmojo) or a splat (.ply)."),
+                _card_button(tr("Open file…"), self.file_wanted.emit),
+            ),
+        ):
+            cards.addWidget(_card(heading, text, button))
+        return cards
 
     def show_recent(self, paths: list[Path], live: Sequence[Path] = ()) -> None:
         """Lists runs that go on without a window, then what was open lately, newest first."""

@@ -78,9 +78,8 @@ def main() -> int:
             unfinished = update(language, texts)
             compile_language(language)
         missing += len(unfinished)
-        print(f"{language}: {len(texts) - len(unfinished)} of {len(texts)} texts are translated")
-        for text in unfinished:
-            print(f"  missing: {text}")
+        sys.stdout.write(f"{language}: {len(texts) - len(unfinished)} of {len(texts)} texts are translated\n")
+        sys.stdout.writelines(f"  missing: {text}\n" for text in unfinished)
     return 1 if missing and "--check" in sys.argv else 0
 
 
