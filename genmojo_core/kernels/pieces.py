@@ -30,8 +30,11 @@ class KernelLibrary(JITCodeLibrary):
         ll_module.data_layout = self._codegen._data_layout
 
     def _optimize_final_module(self) -> None:
-        passes, builder = self._codegen._module_pass_manager(loop_vectorize=False, slp_vectorize=False)
-        passes.run(self._final_module, builder)
+        made = self._codegen._module_pass_manager(loop_vectorize=False, slp_vectorize=False)
+        if isinstance(made, tuple):  # numba 0.62 and later: passes and their builder
+            made[0].run(self._final_module, made[1])
+        else:
+            made.run(self._final_module)
 
 
 class PieceLibrary(KernelLibrary):
