@@ -37,7 +37,7 @@ class ButtonPanel(QScrollArea):
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setMinimumWidth(158)
+        self.setMinimumWidth(120)
         self.setAccessibleName(tr("Buttons of this step"))
         actions.subscribe(self.refresh)
 
@@ -167,7 +167,7 @@ class StepBar(QWidget):
         row.addSpacing(8)
         row.addWidget(self.task, 1)
         self.position = QLabel()
-        self.position.setMinimumWidth(150)
+        self.position.setMinimumWidth(90)
         row.addWidget(self.position)
         row.addWidget(QLabel(tr("stride")))
         self.stride = QSpinBox(minimum=1, maximum=10, value=2)
@@ -177,7 +177,7 @@ class StepBar(QWidget):
         row.addWidget(self.stride)
         self.saved = QLabel()
         self.saved.setProperty("role", "dim")
-        self.saved.setMinimumWidth(120)
+        self.saved.setMinimumWidth(90)
         self.saved.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         row.addWidget(self.saved)
 

@@ -40,7 +40,7 @@ class DopeSheet(QAbstractScrollArea):
         self._ruler = False
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(tr("Dope sheet: states of all points over time"))
-        self.setMinimumHeight(RULER + 4 * ROW)
+        self.setMinimumHeight(RULER + 2 * ROW)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.verticalScrollBar().valueChanged.connect(self._dirty)
         session.edited.connect(self._dirty)

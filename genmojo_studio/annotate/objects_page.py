@@ -128,10 +128,10 @@ class ObjectsPage(QWidget):
 
     def _fill(self, row: int, info: ObjectInfo) -> None:
         f = self.figures.get(info.id)
-        status = {"chosen": tr("chosen"), "candidate": tr("?"), "rejected": tr("left out")}[info.status]
+        status = {"chosen": "✓", "candidate": "?", "rejected": "✗"}[info.status]
         texts = [info.name or tr("object {n}").format(n=info.id), status,
                  f"{100 * f.size:.1f} %" if f else "…", f"{f.motion:.1f}" if f else "…",
-                 f"{100 * f.seen:.0f} / {100 * f.covered:.0f} %" if f else "…"]  # fmt: skip
+                 f"{100 * f.seen:.0f}/{100 * f.covered:.0f} %" if f else "…"]  # fmt: skip
         for column, text in enumerate(texts):
             item = QTableWidgetItem(text)
             item.setTextAlignment(Qt.AlignmentFlag.AlignVCenter | (Qt.AlignmentFlag.AlignRight if column > 1 else
@@ -142,7 +142,7 @@ class ObjectsPage(QWidget):
         chosen = info.status == "chosen"
         icon = point_icon(self._session.place_of(info.id), 0) if chosen else QIcon()
         advice = {"small": tr("very small"), "static": tr("hardly moves"), "hidden": tr("seen in few frames")}
-        text = info.reason or (advice.get(f.advice, "") if f else "")
+        text = tr(info.reason) or (advice.get(f.advice, "") if f else "")
         for column in range(_COLUMNS):
             cell = self.table.item(row, column)
             if cell is None:
@@ -151,11 +151,12 @@ class ObjectsPage(QWidget):
             if column == 0:
                 cell.setIcon(icon)
             elif column == 1 and info.status == "candidate" and text:
-                cell.setText(f"? {text}")
+                cell.setText("?!")
 
     def _arrange(self) -> None:
-        self.table.setHorizontalHeaderLabels([tr("object"), tr("choice"), tr("size"), tr("motion"), tr("seen / cut")])
-        tips = ("", "", tr("Median share of the frame"), tr("Pixels per frame at 1080 lines"),
+        self.table.setHorizontalHeaderLabels([tr("object"), "✓", tr("size"), tr("motion"), tr("seen/cut")])
+        tips = ("", tr("✓ chosen, ? undecided (! something speaks against it), ✗ left out"),
+                tr("Median share of the frame"), tr("Pixels per frame at 1080 lines"),
                 tr("Share of frames in which it is seen; of those, in which it is partly hidden"))  # fmt: skip
         for place, tip in enumerate(tips):
             header = self.table.horizontalHeaderItem(place)
@@ -163,7 +164,8 @@ class ObjectsPage(QWidget):
                 header.setToolTip(tip)
         self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
-        self.table.horizontalHeader().setMinimumSectionSize(36)
+        self.table.horizontalHeader().setMinimumSectionSize(30)
+        self.table.setMinimumHeight(90)
         self.table.verticalHeader().hide()
         self.table.verticalHeader().setDefaultSectionSize(24)
         self.table.setIconSize(QSize(14, 14))
@@ -203,10 +205,11 @@ class ObjectsPage(QWidget):
 
     def _makers(self) -> QHBoxLayout:
         row = QHBoxLayout()
-        row.addWidget(QLabel(tr("Add by")))
+        row.setSpacing(4)
+        row.addWidget(QLabel(tr("Add")))
         for tool, title, tip in (
             (Tool.BOX, tr("box"), tr("Draw a rectangle around the object")),
-            (Tool.SCRIBBLE, tr("click / scribble"), tr("Click on it or draw over it")),
+            (Tool.SCRIBBLE, tr("stroke"), tr("Click on it or draw over it")),
             (Tool.SCRIBBLE_OUT, tr("not this"), tr("Draw over what is not part of it")),
         ):
             button = _tool(title, tip)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QTabWidget, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSizePolicy, QTabWidget, QToolButton, QVBoxLayout, QWidget
 
 from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE
 from genmojo_studio.actions import ActionTable
@@ -123,14 +123,13 @@ class PlayPanel(QWidget):
             self.buttons[name] = button
             row.addWidget(button)
         self.position = QLabel()
-        self.position.setMinimumWidth(190)
+        self.position.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         row.addSpacing(8)
-        row.addWidget(self.position)
-        row.addStretch()
-        row.addWidget(QLabel(tr("drag paints")))
+        row.addWidget(self.position, 1)
         for state, title in ((OCCLUDED, tr("occluded")), (OUT_OF_VIEW, tr("out of view")), (VISIBLE, tr("visible"))):
-            self.brush.addItem(title, state)
+            self.brush.addItem(tr("paint {state}").format(state=title), state)
         self.brush.setAccessibleName(tr("State that a drag paints"))
+        self.brush.setToolTip(tr("What a drag over the dope sheet paints"))
         row.addWidget(self.brush)
         sort = QToolButton()
         sort.setText(tr("worst first"))

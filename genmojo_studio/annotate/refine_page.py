@@ -32,6 +32,9 @@ class RefinePage(QWidget):
         self.note = QLineEdit(placeholderText=tr("note about this track"))
         self.queue = QListWidget()
         self.queue.setAccessibleName(tr("Suspicious spots, worst first"))
+        self.queue.setWordWrap(True)
+        self.queue.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.queue.setSpacing(2)
         self.title = QLabel()
         self.title.setProperty("role", "dim")
         self.why.setMinimumHeight(34)
@@ -94,6 +97,8 @@ class RefinePage(QWidget):
                                   (tr("why"), self.why), (tr("note"), self.note)]))  # fmt: skip
         column.addWidget(self.title)
         column.addWidget(self.queue, 1)
+        self.tree.setMinimumHeight(80)
+        self.queue.setMinimumHeight(60)
         split = QSplitter(Qt.Orientation.Vertical)
         split.addWidget(self.tree)
         split.addWidget(below)

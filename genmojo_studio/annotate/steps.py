@@ -74,7 +74,7 @@ def _review_missing(annotation: Annotation, points: int, stride: int) -> str:
 SHORT = {  # what a narrow button says where the menu's text is too long
     "move.accept": "Accept, go on", "move.worst": "Next doubt", "move.bisect": "Middle of gap", "move.loop": "Loop",
     "point.outside": "Out of view", "point.key": "Key", "point.snap": "Snap", "point.delete_key": "Delete key",
-    "track.solve": "Solve segment", "track.on": "Track on", "track.back": "Track back", "track.mode": "Fill mode",
+    "track.solve": "Solve", "track.on": "Track on", "track.back": "Track back", "track.mode": "Fill mode",
     "track.seed": "Seed…", "track.lock": "Lock", "track.delete": "Delete track", "view.fit": "Fit", "view.one": "1:1",
     "view.follow": "Follow", "view.loupe_stay": "Loupe", "view.masks": "Masks", "view.trails": "Trails",
     "view.strip": "Strip", "review.approve": "Approve", "review.fix": "Needs a fix", "review.merge": "Compare…",

@@ -25,7 +25,8 @@ class Strip(QWidget):
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Maximum)
+        self.setMinimumHeight(48)
         self.setAccessibleName(tr("Stabilised strip of the active point"))
         session.shown.connect(self._changed)
         session.frame_changed.connect(self._changed)

@@ -7,7 +7,17 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QCloseEvent
-from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QStackedWidget, QToolBar, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QDockWidget,
+    QFrame,
+    QLabel,
+    QMainWindow,
+    QScrollArea,
+    QStackedWidget,
+    QToolBar,
+    QVBoxLayout,
+    QWidget,
+)
 from shiboken6 import isValid
 
 from genmojo_core.errors import GenmojoError
@@ -125,9 +135,13 @@ class AnnotateWorkspace(QMainWindow):
         column.addWidget(self.canvas, 1)
         column.addWidget(self.strip)
         self.setCentralWidget(middle)
-        for name, widget in (("buttons", self.buttons), ("information", self.pages), ("play", self.play)):
+        scroll = QScrollArea()  # on small screens pages scroll rather than push the window beyond the screen
+        scroll.setWidgetResizable(True)
+        scroll.setFrameShape(QFrame.Shape.NoFrame)
+        scroll.setMinimumWidth(250)
+        scroll.setWidget(self.pages)
+        for name, widget in (("buttons", self.buttons), ("information", scroll), ("play", self.play)):
             self.docks[name].setWidget(widget)
-        self.pages.setMinimumWidth(300)
         self.bar.setEnabled(True)
         self.bar.stride.setValue(session.stride)
         for changed in (session.edited, session.selected):
@@ -202,7 +216,7 @@ class AnnotateWorkspace(QMainWindow):
         wide, high = max(self.width(), 1000), max(self.height(), 600)
         sizes = {"buttons": 178, "information": int(min(max(0.24 * wide, 310), 430))}
         self.resizeDocks([self.docks[n] for n in sizes], list(sizes.values()), Qt.Orientation.Horizontal)
-        self.resizeDocks([self.docks["play"]], [int(0.27 * high)], Qt.Orientation.Vertical)
+        self.resizeDocks([self.docks["play"]], [int(0.3 * high)], Qt.Orientation.Vertical)
 
     def use_tool(self, tool: Tool | None) -> None:
         """Draw with a tool on the canvas, or go back to points."""

@@ -134,10 +134,14 @@ class Hands:
             if frame == stride * 4:
                 self.shot("3-refine")
             for _ in range(3 * len(self.row)):
-                QTest.keyClick(self.w.canvas, Qt.Key.Key_Return)
+                self.key(Qt.Key.Key_Return)
                 if self.s.frame != frame:
                     break
-            if self.s.frame == frame or self.s.frame - frame < stride:
+            if self.s.frame == frame:
+                if frame + stride < self.s.annotation.frames:
+                    raise TimeoutError(f"Enter does not leave frame {frame}")
+                return
+            if self.s.frame - frame < stride:
                 return
             self.idle()
 
@@ -147,7 +151,7 @@ class Hands:
         spots = [s for s in self.w.hands.going.spots if s.score >= SUSPICIOUS]
         total = len(self.row) * self.s.annotation.frames / 4
         for spot in spots[: int(np.ceil(share * total))]:
-            QTest.keyClick(self.w.canvas, Qt.Key.Key_N)
+            self.key(Qt.Key.Key_N)
             self.idle()
             if self.s.track in self.row:
                 self.look_at(self.s.track)
@@ -189,8 +193,7 @@ class Hands:
         self.s.select_track(track)
         if first == last:
             key = {VISIBLE: Qt.Key.Key_V, OCCLUDED: Qt.Key.Key_Q, OUT_OF_VIEW: Qt.Key.Key_O}[state]
-            self.w.canvas.setFocus()
-            QTest.keyClick(self.w.canvas, key)
+            self.key(key)
             return
         sheet = self.w.play.sheet
         self.w.play.brush.setCurrentIndex(self.w.play.brush.findData(state))
@@ -203,6 +206,14 @@ class Hands:
         QTest.mouseMove(sheet.viewport(), end)
         QTest.mouseRelease(sheet.viewport(), LEFT, NO_KEY, end)
         self.idle()
+
+    def key(self, key: Qt.Key) -> None:
+        """Press a key in the frame; without a window manager nobody else gives the window the keyboard back."""
+        if not self.w.isActiveWindow():
+            self.w.activateWindow()
+            QTest.qWaitForWindowActive(self.w)
+        self.w.canvas.setFocus()
+        QTest.keyClick(self.w.canvas, key)
 
     def click_at(self, x: float, y: float) -> None:
         """Zoom there and click; where another point is in the way, drag the own one."""
