@@ -46,7 +46,12 @@ def colour(
 ) -> np.ndarray:  # (H, W, 3) uint8
     """Sums over a backdrop as the RESOLVE shader colours them."""
     rgb, alpha = _premultiplied(sums, mode, bounds, object_colors)
-    return (np.clip(rgb + (1 - alpha) * np.asarray(backdrop, np.float32), 0, 1) * 255 + 0.5).astype(np.uint8)
+    shown = np.array(rgb, np.float32)  # worked on in place: this runs for every frame
+    if any(backdrop):
+        shown += (1 - alpha) * np.asarray(backdrop, np.float32)
+    shown *= 255
+    shown += 0.5
+    return np.clip(shown, 0, 255.5, out=shown).astype(np.uint8)
 
 
 def straight_rgba(
@@ -62,9 +67,10 @@ def _premultiplied(
     sums: np.ndarray, mode: Mode, bounds: tuple[float, float], object_colors: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Colours times coverage (H, W, 3), and the coverage that is shown (H, W, 1)."""
-    alpha = sums[..., 3:]
-    mean = sums[..., :3] / np.maximum(alpha, LEAST)
-    rgb = sums[..., :3]
+    rgb, alpha = sums[..., :3], sums[..., 3:]
+    if mode in (Mode.RGB, Mode.INSTANCE_SOFT, Mode.ELLIPSOIDS, Mode.CENTRES):
+        return rgb, alpha
+    mean = rgb / np.maximum(alpha, LEAST)
     if mode in (Mode.DEPTH, Mode.DEPTH_MEDIAN, Mode.RESIDUAL):
         rgb = _on_scale(mean[..., 0], bounds) * alpha
     elif mode == Mode.OPACITY:

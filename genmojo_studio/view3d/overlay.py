@@ -24,6 +24,7 @@ Paint = Callable[[QPainter, View, float], None]  # (painter, camera in logical p
 
 GIZMO = 92  # side of the square in the upper right corner
 _MARGIN = 10
+_LEGEND_FROM = 260  # height of a view that has room for a legend
 _PLATE = QColor(12, 13, 15, 190)
 _INK = QColor("#f2f2f2")
 _DIM = QColor("#b9bfc8")
@@ -41,7 +42,6 @@ class Overlay(QWidget):
         self.report: FrameReport | None = None
         self.paints: list[Paint] = []
         self.message = ""  # a banner, e.g. why the processor draws
-        self.shows_gizmo = True
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         """Everything over the newest frame, by the camera that frame was drawn with."""
@@ -55,12 +55,16 @@ class Overlay(QWidget):
                 paint(painter, view, request.t)
                 painter.restore()
             self._paint_corner_texts(painter)
-            if self.shows_gizmo:
+            if self.has_gizmo():
                 paint_gizmo(painter, self.gizmo_rect(), axes_of(self.report))
             self._paint_legend(painter)
         if self.message:
             plate(painter, [self.message], QPointF(_MARGIN, self.height() - _MARGIN), _WARN, bottom=True)
         painter.end()
+
+    def has_gizmo(self) -> bool:
+        """Is there room for the axes beside the texts?"""
+        return self.width() >= 4 * GIZMO and self.height() >= 2 * GIZMO
 
     def gizmo_rect(self) -> QRectF:
         """Where the axes are."""
@@ -68,7 +72,7 @@ class Overlay(QWidget):
 
     def axis_at(self, point: QPointF) -> str | None:
         """The preset of the axis end under the mouse, or None."""
-        if self.report is None or not self.shows_gizmo or not self.gizmo_rect().contains(point):
+        if self.report is None or not self.has_gizmo() or not self.gizmo_rect().contains(point):
             return None
         best = None
         for end, _, preset, z in axis_ends(self.gizmo_rect(), axes_of(self.report)):
@@ -96,6 +100,8 @@ class Overlay(QWidget):
     def _paint_legend(self, painter: QPainter) -> None:
         """Lower right corner: scale with lowest and highest value, flow wheel, or names of objects."""
         if self.report is None:
+            return
+        if self.height() < _LEGEND_FROM:
             return
         mode, bounds = self.report.request.look.mode, self.report.bounds
         corner = QPointF(self.width() - _MARGIN, self.height() - _MARGIN)
@@ -162,6 +168,8 @@ def plate(painter: QPainter, lines: Sequence[str], at: QPointF, ink: QColor, *, 
     """Lines of text on a dark plate with its upper (or lower) left corner at a place; the plate's lower edge."""
     painter.setFont(_font(painter, 9))
     metrics = painter.fontMetrics()
+    room = round(painter.window().width() - at.x() - _MARGIN - 16)
+    lines = [metrics.elidedText(line, Qt.TextElideMode.ElideRight, room) for line in lines]
     width = max(metrics.horizontalAdvance(line) for line in lines) + 16
     height = metrics.height() * len(lines) + 8
     top = at.y() - height if bottom else at.y()

@@ -27,7 +27,7 @@ def test_a_view_lives(display: str, way: str) -> None:
 def test_a_view_on_a_fine_screen(display: str) -> None:
     """Twice the pixels, the same scene, and clicks hit what is under them."""
     answer = run_window(display, "xcb_egl", "life", QT_SCALE_FACTOR="2")
-    assert answer["pixels"] == [640, 480]
+    assert answer["pixels"] == [800, 600]
     _check_life(answer, "SplatView")
 
 

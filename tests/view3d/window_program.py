@@ -84,7 +84,7 @@ def life(engine: str) -> dict:
     snapshot = the_scene()
     watched = Watched(SceneView(engine=engine))
     view = watched.view
-    view.resize(320, 240)
+    view.resize(400, 300)
     view.set_snapshot(snapshot)
     watched.after(view.show)
     answer: dict = {"surface": type(view.surface).__name__}
