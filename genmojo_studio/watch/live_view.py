@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QPainter
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from genmojo_core.clip.cameras import View
 from genmojo_studio.state import AppState
@@ -18,6 +19,7 @@ from genmojo_studio.view3d.scene_view import SceneView
 from genmojo_studio.view3d.snapshot import SceneSnapshot
 from genmojo_studio.watch import track_overlay
 from genmojo_studio.watch.appearance import Appearance
+from genmojo_studio.watch.controls import dim
 from genmojo_studio.watch.track_sets import TrackSet
 
 
@@ -34,6 +36,10 @@ class LiveView(SceneView):
         self._pending: SceneSnapshot | None = None
         self._sets: tuple[TrackSet, ...] = ()
         self._selected: tuple[str, int] | None = None
+        self._hint = dim(tr("No scene yet. Start a run (F5), or open a scene file."))
+        self._hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        layout = QVBoxLayout(self)
+        layout.addWidget(self._hint)
         self.set_input(self._clip_frame)
         self.add_overlay(self._paint_tracks)
         self.view_changed.connect(self._remember)
@@ -46,6 +52,7 @@ class LiveView(SceneView):
             self._pending = snapshot
         else:
             self.set_snapshot(snapshot)
+            self._hint.setVisible(snapshot is None)
             self._take_time()
 
     def set_quiet(self, quiet: bool) -> None:

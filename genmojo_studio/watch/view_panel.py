@@ -39,7 +39,6 @@ class ViewPanel(QWidget):
         super().__init__(parent)
         self._appearance = appearance
         self._orbit = Orbit()
-        self._reference: Reference | None = None
         self.fields = {
             "elevation": number(-180, 180, "°", 2, 5),
             "azimuth": number(-180, 180, "°", 2, 5),
@@ -84,10 +83,12 @@ class ViewPanel(QWidget):
         self.canonical.clicked.connect(lambda: actions.trigger("view.canonical"))
         appearance.changed.connect(self._show_look)
         self._show_look()
+        self.setEnabled(False)
 
     def show_orbit(self, orbit: Orbit, reference: Reference, supervised: np.ndarray) -> None:
         """Shows where the view is; `supervised` are rows (elevation, azimuth, frame) as in a snapshot."""
-        self._orbit, self._reference = orbit, reference
+        self._orbit = orbit
+        self.setEnabled(True)
         values = {
             "elevation": orbit.elevation,
             "azimuth": orbit.azimuth,

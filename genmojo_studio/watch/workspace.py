@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QByteArray, Qt, Signal
+from PySide6.QtCore import QByteArray, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabWidget, QVBoxLayout, QWidget
 
@@ -98,7 +98,11 @@ class WatchWorkspace(QMainWindow):
     def restore_layout(self) -> None:
         """Puts the panels where they were, or where they were delivered."""
         stored = Settings().layout("watch")
-        self.restoreState(stored if stored is not None else self._delivered, _LAYOUT_VERSION)
+        if stored is not None:
+            self.restoreState(stored, _LAYOUT_VERSION)
+            return
+        self.restoreState(self._delivered, _LAYOUT_VERSION)
+        QTimer.singleShot(0, self._deliver_sizes)  # sizes hold only once the window has its own
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Asks what becomes of a run that goes on."""
@@ -148,9 +152,14 @@ class WatchWorkspace(QMainWindow):
         for name in ("picking", "tracks", "compare"):
             self.tabifyDockWidget(self.docks["curves"], self.docks[name])
         self.docks["curves"].raise_()
-        self.resizeDocks([self.docks["view"], self.docks["run"]], [290, 400], Qt.Orientation.Horizontal)
-        self.resizeDocks([self.docks["curves"]], [250], Qt.Orientation.Vertical)
         self._delivered: QByteArray = self.saveState(_LAYOUT_VERSION)
+
+    def _deliver_sizes(self) -> None:
+        """A third of the height for the panels below, a fifth of the width for each side."""
+        wide = max(290, self.width() // 6), max(380, self.width() // 5)
+        self.resizeDocks([self.docks["view"], self.docks["run"]], list(wide), Qt.Orientation.Horizontal)
+        self.resizeDocks([self.docks["curves"]], [self.height() // 3], Qt.Orientation.Vertical)
+        self.resizeDocks([self.docks["view"], self.docks["objects"]], [430, 300], Qt.Orientation.Vertical)
 
     def _dock(self, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
         dock = QDockWidget(title)

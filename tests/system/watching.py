@@ -67,6 +67,7 @@ def main():
     figures["torch"] = "torch" in sys.modules
     figures["stalls"] = sorted((round(busy) for _, busy in window.watchdog.stalls), reverse=True)[:5]
     window.close()
+    (drive.folder / "figures.json").write_text(json.dumps(figures))
     print(json.dumps(figures))
 
 

@@ -1,0 +1,155 @@
+"""The workspace Watch on a scene: what a person sees and changes, and that previews do not hold up the window."""
+
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+
+from genmojo_core.clip.cameras import Cameras
+from genmojo_core.store import scene_hdf5
+from genmojo_core.store.scene_file import BakedScene, SceneObject
+from genmojo_studio.view3d.look import Mode
+from genmojo_studio.view3d.snapshot import SceneSnapshot
+from genmojo_studio.watch.time_bar import TimeBar
+
+_FRAMES = 4
+
+
+def _scene(count=60):
+    """Two objects in front of a background; object 1 moves to the right."""
+    rng = np.random.default_rng(3)
+    owners = (SceneObject(0, "background", (0.5, 0.5, 0.5), True, 0, count),
+              SceneObject(1, "ball", (0.9, 0.3, 0.2), False, count, count),
+              SceneObject(2, "box", (0.2, 0.5, 0.9), False, 2 * count, count))  # fmt: skip
+    xyz = rng.normal(0, 0.15, (3 * count, 3)).astype(np.float32)
+    xyz[:count] = rng.uniform(-2, 2, (count, 3)) * (1, 1, 0) + (0, 0, 3)
+    xyz[count : 2 * count] += (-0.6, 0, 0)
+    xyz[2 * count :] += (0.6, 0, 0)
+    moved = np.zeros((_FRAMES, 3 * count, 3), np.float32)
+    moved[:, count : 2 * count, 0] = np.arange(_FRAMES)[:, None] * 0.1
+    unit = np.tile(np.array([1, 0, 0, 0], np.float32), (3 * count, 1))
+    pose = np.eye(4)
+    pose[2, 3] = 4.0
+    k = np.array([[160.0, 0, 80], [0, 160.0, 45], [0, 0, 1]])
+    cameras = Cameras(np.tile(k, (_FRAMES, 1, 1)), np.tile(pose, (_FRAMES, 1, 1)), (160, 90))
+    return BakedScene(
+        frame_index=np.arange(_FRAMES), seconds=np.arange(_FRAMES) / 24, source_names=tuple("abcd"), objects=owners,
+        xyz=xyz, rot=unit, scale=np.full((3 * count, 3), 0.08, np.float32), opacity=np.full(3 * count, 0.9, np.float32),
+        dc=rng.normal(0, 0.5, (3 * count, 3)).astype(np.float32), uid=np.arange(3 * count, dtype=np.uint64),
+        d_xyz=moved, rot_t=np.tile(unit, (_FRAMES, 1, 1)), log_scale_t=np.zeros((_FRAMES, 3 * count, 3), np.float32),
+        object_to_world=np.tile(np.eye(3, 4, dtype=np.float32), (_FRAMES, 3, 1, 1)),
+        depth_scale=np.ones((_FRAMES, 3), np.float32), cameras=cameras, ref_frame=np.zeros(3, np.int64),
+        world_up=np.array([0.0, -1, 0]), supervised=np.array([[0.0, 0, 0]], np.float32),
+    )  # fmt: skip
+
+
+@pytest.fixture
+def watch(window, qtbot, tmp_path):
+    path = tmp_path / "scene.h5"
+    scene_hdf5.write(_scene(), path)
+    window.open_path(path)
+    qtbot.waitUntil(lambda: window.workspaces["watch"].session.scene is not None, timeout=20_000)
+    return window.workspaces["watch"]
+
+
+def test_a_scene_file_opens_with_its_objects_and_frames(window, watch):
+    assert window.workspace == "watch" and window.state.frame_count == _FRAMES
+    names = [watch.objects_panel.list.topLevelItem(i).text(0) for i in range(3)]
+    assert names == ["Background", "ball", "box"]
+
+
+def test_typed_angles_turn_the_view_and_undo_turns_it_back(window, watch):
+    watch.view_panel.fields["elevation"].setValue(30.0)
+    assert watch.view.orbit.elevation == pytest.approx(30.0, abs=1e-9)
+    assert "30" in watch.view_panel.badge.text() and watch.view_panel.badge.property("role") == "warn"
+    assert window.table.trigger("edit.undo")
+    assert watch.view.orbit.elevation == 0.0 and watch.view_panel.fields["elevation"].value() == 0.0
+
+
+def test_a_preset_arrives_exactly_where_it_says(window, watch, qtbot):
+    window.table.trigger("view.right_30")
+    qtbot.waitUntil(lambda: watch.view.orbit.azimuth == 30.0, timeout=5000)
+    window.table.trigger("view.input")
+    qtbot.waitUntil(lambda: watch.view.orbit.azimuth == 0.0, timeout=5000)
+
+
+def test_solo_hides_the_others_and_all_brings_them_back(window, watch):
+    window.state.set(selected_object=1)
+    window.table.trigger("view.solo")
+    boxes = [watch.objects_panel.list.topLevelItem(i).checkState(0) for i in range(3)]
+    assert boxes == [Qt.CheckState.Unchecked, Qt.CheckState.Checked, Qt.CheckState.Unchecked]
+    window.table.trigger("view.all")
+    assert watch.view.look.solo == frozenset()
+
+
+def test_modes_from_the_menu_reach_the_view_and_are_ticked(window, watch):
+    window.table.trigger("mode.depth")
+    assert watch.view.look.mode == Mode.DEPTH and window.table.is_checked("mode.depth")
+    assert watch.center.mode_choice.currentData() == "mode.depth"
+
+
+def test_scrubbing_moves_view_bar_and_time_together(window, watch):
+    bar = watch.findChild(TimeBar)
+    bar.slider.setValue(2)
+    assert window.state.frame == 2 and watch.view.time == 2.0 and bar.frame.value() == 3
+
+
+def test_a_click_names_the_gaussian_and_follows_it_over_all_frames(watch, qtbot):
+    watch.center.set_mode("scene")
+    QTest.qWait(50)
+    x, y = _pixel_of(watch, np.array([-0.6, 0, 0]))
+    QTest.mouseClick(watch.view, Qt.MouseButton.LeftButton, pos=watch.view.rect().topLeft() + _point(x, y))
+    qtbot.waitUntil(lambda: watch.picking.trajectory is not None, timeout=10_000)
+    way = watch.picking.trajectory
+    assert way.object_id == 1 and watch.state.selected_object == 1
+    assert way.position[:, 0] - way.position[0, 0] == pytest.approx(np.arange(_FRAMES) * 0.1, abs=1e-5)
+
+
+def test_a_frozen_scene_is_compared_with_what_comes_after(watch, qtbot):
+    watch.compare.freeze.click()
+    qtbot.waitUntil(lambda: watch.compare._pair is not None, timeout=20_000)
+    assert (watch.compare._pair.first == watch.compare._pair.second).all()
+    assert watch.compare.table.topLevelItem(0).text(3) == "+0"
+
+
+def test_a_picture_of_the_view_has_the_size_asked_for(watch, qtbot, tmp_path):
+    output = tmp_path / "view.png"
+    watch.take_away.save_picture(str(output), (320, 180), True)
+    qtbot.waitUntil(lambda: watch.take_away.last is not None, timeout=20_000)
+    from PySide6.QtGui import QImage
+
+    picture = QImage(str(output))
+    assert (picture.width(), picture.height()) == (320, 180) and picture.hasAlphaChannel()
+    assert output.with_suffix(".json").exists()
+
+
+def test_previews_hold_up_the_window_for_a_few_milliseconds_only(window, watch, qtbot):
+    """20,000 Gaussians, forty previews: the UI thread's own work, not the machine's load, is what counts."""
+    scene = _scene(7000)
+    first = replace(SceneSnapshot.from_baked(scene), frames=None)
+    watch.session.take_preview(first)
+    QTest.qWait(200)
+    spent = []
+    for i in range(40):
+        preview = replace(first, version=i + 2, step=i)
+        begun = time.thread_time()
+        watch.session.take_preview(preview)
+        QTest.qWait(5)
+        spent.append((time.thread_time() - begun) * 1000)
+    assert sorted(spent)[20] < 40.0
+    assert len(watch.objects_panel.list.findItems("", Qt.MatchFlag.MatchContains)) == 3
+
+
+def _pixel_of(watch, point):
+    view = watch.view.view()
+    camera = view.world_to_camera[:3, :3] @ point + view.world_to_camera[:3, 3]
+    return view.fx * camera[0] / camera[2] + view.cx, view.fy * camera[1] / camera[2] + view.cy
+
+
+def _point(x, y):
+    from PySide6.QtCore import QPoint
+
+    return QPoint(round(x), round(y))
