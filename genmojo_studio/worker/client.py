@@ -9,6 +9,7 @@ States come from the worker's own messages, never from a pressed button. Imports
 
 from __future__ import annotations
 
+import contextlib
 import json
 import time
 from dataclasses import replace
@@ -256,6 +257,10 @@ class WorkerClient(QObject):
         self._timer.stop()
         self._process = None
         self._line.close()
+        self._catch_up(None)
+        for bus in Path(self.run_dir).glob("*.bus"):
+            with contextlib.suppress(OSError):  # on Windows a mapped file stays until the next run
+                bus.unlink()
         left = runs.read_json(Path(self.run_dir) / runs.EXIT)
         if left.get("kind") == "done" and left.get("pid") == process.pid:
             self._enter("done")
@@ -278,9 +283,7 @@ class WorkerClient(QObject):
     def _on_hello(self, message: dict[str, Any]) -> None:
         self._hello = True
         self.request = RunRequest.from_json(message["request"])
-        for event in runs.read_events(self.run_dir)[self._events : int(message["events"])]:
-            self.event_received.emit(event)
-        self._events = int(message["events"])
+        self._catch_up(int(message["events"]))
         self._on_phase(message)
         self._on_bus(message)
         self._fresh = set(self._readers)
@@ -289,6 +292,13 @@ class WorkerClient(QObject):
         for command in self._waiting:
             self._line.send(command)
         self._waiting = []
+
+    def _catch_up(self, end: int | None) -> None:
+        """Tell what was said while nobody listened, up to an event's number (None: to the end)."""
+        events = runs.read_events(self.run_dir)[self._events : end]
+        self._events += len(events)
+        for event in events:
+            self.event_received.emit(event)
 
     def _on_refused(self, message: dict[str, Any]) -> None:
         self._line.close()
@@ -336,7 +346,8 @@ class WorkerClient(QObject):
                 continue
             if old is not None:
                 old.close()
-            self._readers[stream] = BusReader(path)
+            with contextlib.suppress(GenmojoError):  # gone already: a larger one follows
+                self._readers[stream] = BusReader(path)
 
     def _on_preview(self, message: dict[str, Any]) -> None:
         self._fresh.add(message["stream"])

@@ -44,7 +44,7 @@ class Governor:
         self._due = 0.0
         self._stretch = 1.0
         self._draw_share = 0.0
-        self._spent: deque[tuple[float, float]] = deque()  # when, seconds
+        self._spent: deque[tuple[float, float]] = deque(maxlen=4096)  # when, seconds
         self._steps: deque[float] = deque(maxlen=4 * PROBE_STEPS)
         self._probe: list[float] = []
         self._since_probe = 0
@@ -92,10 +92,8 @@ class Governor:
             self._since_probe += 1
 
     def cost(self, now: float) -> ViewCost:
-        """What the view costs: publishing as measured over the last seconds, drawing as last probed."""
-        while self._spent and self._spent[0][0] < now - _WINDOW:
-            self._spent.popleft()
-        share = sum(seconds for _, seconds in self._spent) / _WINDOW
+        """What the view costs: publishing as measured over the last seconds, drawing as last probed; any thread."""
+        share = sum(seconds for when, seconds in list(self._spent) if when > now - _WINDOW) / _WINDOW
         off = self._floor is None
         return ViewCost(min(1.0, share), 0.0 if off else self._draw_share, 0.0 if off else self.interval())
 

@@ -20,7 +20,7 @@ import time
 import traceback
 from pathlib import Path
 from types import FrameType, TracebackType
-from typing import IO, Any, Protocol
+from typing import Any, Protocol
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.atomic import write_bytes
@@ -61,7 +61,7 @@ class Host:
         self.publisher = Publisher(run_dir, self.tell, self.governor)
         self.publisher.frame = self.request.look_at
         self.session = Session(self.tell, self.publisher, self.request.paused)
-        self._events: IO[bytes] = open(run_dir / runs.EVENTS, "ab")  # noqa: SIM115 - open as long as the process
+        self._events = runs.open_events(run_dir)
         self._count = len(runs.read_events(run_dir))
         self._lock = threading.Lock()
         self.link: Link | None = None

@@ -131,7 +131,10 @@ class Link:
 
     def _serve_one(self, key: selectors.SelectorKey, mask: int) -> None:
         if key.fileobj is self._listener:
-            sock, _ = self._listener.accept()
+            try:
+                sock, _ = self._listener.accept()
+            except OSError:  # it hung up again already
+                return
             sock.setblocking(False)
             window = _Window(sock)
             with self._lock:

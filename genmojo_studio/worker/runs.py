@@ -161,6 +161,15 @@ def read_events(run_dir: str | Path) -> list[dict[str, Any]]:
     return [event for event in events if isinstance(event, dict)]
 
 
+def open_events(run_dir: str | Path) -> IO[bytes]:
+    """The event log, to add to; a last line that a killed worker left unfinished is cut off."""
+    stream = open(Path(run_dir) / EVENTS, "a+b")  # noqa: SIM115 - the caller closes it
+    stream.seek(0)
+    text = stream.read()
+    stream.truncate(text.rfind(b"\n") + 1)
+    return stream
+
+
 def _try_lock(stream: IO[bytes]) -> bool:
     """Take the lock without waiting; it goes when the file is closed or the process ends."""
     try:

@@ -125,9 +125,11 @@ class Session:
             self.publisher.show_run(run, run.reference, (self.stage, self.step))
 
     def answer_rest(self) -> None:
-        """Refuse what came too late."""
+        """Refuse what came too late, except to stop."""
         while not self._commands.empty():
-            self._ack(self._commands.get(), error="The run is over.")
+            command = self._commands.get()
+            over = command.get("name") == "stop"
+            self._ack(command, result=self.state if over else None, error="" if over else "The run is over.")
 
     def _heard(self, event: events.Event, seconds: float) -> None:
         """Pass an event on, count, show, and pause where that was asked for."""
