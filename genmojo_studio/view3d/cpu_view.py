@@ -16,6 +16,7 @@ from PySide6.QtWidgets import QWidget
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.errors import GenmojoError
+from genmojo_studio.translate import tr
 from genmojo_studio.view3d.colouring import colour, straight_rgba, value_bounds
 from genmojo_studio.view3d.cpu_painter import CpuPainter
 from genmojo_studio.view3d.frames import Feeder, FrameReport, FrameRequest
@@ -31,6 +32,7 @@ class CpuView(QWidget):
 
     drawn = Signal(object)
     failed = Signal(str)
+    waiting = Signal(str)  # why the first picture takes long; "" when it is there
     _finished = Signal(object, object)
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -40,7 +42,7 @@ class CpuView(QWidget):
         self._pixels: np.ndarray | None = None  # keeps the image's memory
         self._newest: FrameRequest | None = None
         self._finished.connect(self._show, Qt.ConnectionType.QueuedConnection)
-        self._drawer = Drawer(self._finished.emit, self.failed.emit)
+        self._drawer = Drawer(self._finished.emit, self.failed.emit, self.waiting.emit)
         self.destroyed.connect(self._drawer.stop)
 
     def show_frame(self, request: FrameRequest) -> None:
@@ -93,8 +95,10 @@ class CpuView(QWidget):
 class Drawer:
     """The thread: one request waits at most. Knows no widget."""
 
-    def __init__(self, finished: Callable[..., None], failed: Callable[..., None]) -> None:
-        self._finished, self._failed = finished, failed
+    def __init__(
+        self, finished: Callable[..., None], failed: Callable[..., None], waiting: Callable[[str], None]
+    ) -> None:
+        self._finished, self._failed, self._waits = finished, failed, waiting
         self._painter, self._feeder, self._detail = CpuPainter(), Feeder(), Detail()
         self._busy = threading.Lock()  # the painter
         self._wake = threading.Condition()
@@ -149,11 +153,23 @@ class Drawer:
                     return
                 (request, size), self._waiting = self._waiting, None
             try:
+                cold = not self._warm and self._tell_if_cold()
                 pixels, report = self._draw(request, size)
             except (GenmojoError, ImportError, MemoryError, RuntimeError) as error:
                 self._tell(self._failed, str(error).splitlines()[0] or type(error).__name__)
                 continue
             self._tell(self._finished, pixels, report)
+            if cold:
+                self._tell(self._waits, "")
+
+    def _tell_if_cold(self) -> bool:
+        """Say that kernels have to be compiled first, where that is so."""
+        from genmojo_core.kernels.cache import is_cold  # loads numba: only here, on the thread
+
+        cold = is_cold()
+        if cold:
+            self._tell(self._waits, tr("Preparing the drawing kernels, once on this computer …"))
+        return cold
 
     def _tell(self, emit: Callable[..., None], *values: object) -> None:
         """Emit a signal unless its widget is gone."""

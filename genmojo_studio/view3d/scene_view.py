@@ -284,6 +284,8 @@ class SceneView(QWidget):
         self.surface = surface
         surface.setGeometry(self.rect())
         surface.drawn.connect(self._drawn)
+        if isinstance(surface, CpuView):
+            surface.waiting.connect(self.set_message)
         surface.failed.connect(self._failed, Qt.ConnectionType.QueuedConnection)  # never within a paint event
         surface.show()
         self.overlay.raise_()
