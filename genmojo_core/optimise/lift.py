@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import cv2
 import numpy as np
 import torch
 from torch import Tensor
@@ -21,13 +22,15 @@ from genmojo_core.scene.appearance import FrameGain
 from genmojo_core.scene.background import background_points
 from genmojo_core.scene.deform import DeformationField, FieldShape
 from genmojo_core.scene.gaussians import Gaussians
-from genmojo_core.scene.initialise import Points, points_of_image, surface_axes, uncovered
+from genmojo_core.scene.initialise import Points, points_of_image, project, surface_axes, uncovered
 from genmojo_core.scene.placement import Placement
 from genmojo_core.scene.scene4d import Layout, ObjectModel, Scene4D
 
 START_SHARE = 0.7  # of the allowed Gaussians; the rest is left to density control
 FIRST_SHARE = 0.65  # of these, spent on the canonical frame
 MIN_POINTS = 16
+SURE = 0.3  # confidence from which a pose may bring in parts of other frames
+RIM = 2  # pixels beside a mask that may belong to it
 
 
 @dataclass(frozen=True)
@@ -103,7 +106,7 @@ def object_points(clip: Clip, k: int, motion: Moves, count: int) -> Points:
     others.sort(key=lambda t: abs(t - ref))
     for i, t in enumerate(others):
         left = count - len(points)
-        if motion.confidence[t] < 0.3 or left < MIN_POINTS:
+        if motion.confidence[t] < SURE or left < MIN_POINTS:
             continue
         there = replace(points, xyz=_bent(motion, t, points.xyz)).moved(motion.pose[t])
         holes = uncovered(there, cameras.view(t), usable[t])
@@ -114,8 +117,28 @@ def object_points(clip: Clip, k: int, motion: Moves, count: int) -> Points:
         back = found.moved(np.linalg.inv(motion.pose[t]))
         if motion.bend is not None:
             back = replace(back, xyz=motion.bend.undone(t, back.xyz))
-        points = points.joined(back)
+        points = points.joined(back.chosen(_within_masks(clip, k, motion, back.xyz, [ref, *others])))
     return points
+
+
+def _within_masks(clip: Clip, k: int, motion: Moves, xyz: np.ndarray, frames: list[int]) -> np.ndarray:  # (N,) bool
+    """Which canonical points (N, 3) stay where object k may be in most frames with a sure pose.
+
+    It may be on its mask, behind other objects, on void pixels and outside the picture. Points brought in from a frame
+    with a wrong pose or a wrong mask fall beside the object everywhere else.
+    """
+    free = (clip.masks.value == 0) & clip.masks.valid
+    against, asked = np.zeros(len(xyz)), 0
+    for t in (t for t in frames if motion.confidence[t] >= SURE):
+        asked += 1
+        near = np.full((2 * RIM + 1, 2 * RIM + 1), 1, np.uint8)
+        surely_free = cv2.erode(free[t].astype(np.uint8), near, borderValue=1) > 0
+        xy, _ = project(_bent(motion, t, xyz) @ motion.pose[t, :3, :3].T + motion.pose[t, :3, 3],
+                        clip.cameras.value.view(t))  # fmt: skip
+        inside = ((xy >= 0) & (xy < clip.size)).all(axis=1)
+        column, row = np.where(inside[:, None], xy, 0).astype(int).T
+        against += inside & surely_free[row, column]
+    return 2 * against <= asked
 
 
 def frame_gains(clip: Clip) -> Tensor:

@@ -39,6 +39,10 @@ class Points:
                  (self.tangents, other.tangents))  # fmt: skip
         return Points(*(np.concatenate(pair) for pair in pairs))
 
+    def chosen(self, keep: np.ndarray) -> Points:  # (N,) bool
+        """Some of the pieces."""
+        return Points(self.xyz[keep], self.rgb[keep], self.sigma[keep], self.tangents[keep])
+
     def moved(self, pose: np.ndarray) -> Points:
         """The cloud under a (4, 4) similarity."""
         linear = pose[:3, :3]
