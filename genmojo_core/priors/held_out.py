@@ -19,12 +19,13 @@ THICKNESSES = (0.5, 0.8, 1.2, 1.6)  # of inflated silhouettes, in units of the d
 Table = dict[str, dict[str, float]]
 
 
-def table(net: VolumeNet) -> Table:
+def table(net: VolumeNet, objects: int | None = None) -> Table:
     """Rows by predictor: PSNR on grey in dB by angle and over all views, `inside` dB, mask `iou`.
 
-    Also "shuffled" (the next object's condition) and "without depth"; the prior must lose by the first.
+    Also the prior without depth and with the next object's condition, by which it must lose. Of the first `objects` of
+    the set only, where that is given.
     """
-    batch = batch_of(frozen_examples())
+    batch = batch_of(frozen_examples()[:objects])
     task = VolumeTask(net.eval())
     with torch.no_grad():
         best = max((inflated(batch, k) for k in THICKNESSES), key=lambda p: scores(p, batch.targets)["psnr"])

@@ -17,7 +17,7 @@ from genmojo_core.priors.embedded import EmbeddedPrior
 from genmojo_core.priors.held_out import table
 from genmojo_core.priors.tasks import DenoiserTask, VolumeTask
 from genmojo_core.priors.test_set import recorded
-from genmojo_core.priors.training import Progress, TrainingPlan, train
+from genmojo_core.priors.training import Progress, TrainingPlan, read_metadata, train
 from genmojo_core.priors.volume import VolumeNet
 
 
@@ -43,11 +43,9 @@ def make_prior(folder: Path, times: Times, hear: Callable[[str, Progress], None]
         raise GenmojoError("io", f"cannot be made ({error.strerror})", str(folder), "choose another folder") from error
     torch.manual_seed(times.seed)
     volume, denoiser = VolumeNet(), Denoiser()
-    steps: dict[str, int] = {"volume": 0, "denoiser": 0}
 
     def report(part: str) -> Callable[[Progress], bool]:
         def tell(progress: Progress) -> bool:
-            steps[part] = progress.step
             hear(part, progress)
             return True
 
@@ -59,18 +57,22 @@ def make_prior(folder: Path, times: Times, hear: Callable[[str, Progress], None]
     train(DenoiserTask(denoiser, volume), folder, plan, report("denoiser"))  # freezes the volume
     prior = EmbeddedPrior(volume.cpu(), denoiser.cpu())
     path = folder / weights.SHIPPED.name
-    weights.write(path, prior, description(prior, times, steps))
+    states = {part: read_metadata(folder / f"{part}.safetensors") for part in ("volume", "denoiser")}
+    weights.write(path, prior, description(prior, times, states))
     return path
 
 
-def description(prior: EmbeddedPrior, times: Times, steps: dict[str, int]) -> dict[str, Any]:
-    """What the file says about itself: origin, training, the table on the frozen test set."""
+def description(prior: EmbeddedPrior, times: Times, states: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """What the file says about itself: origin, training, the table on the frozen test set.
+
+    states: by part, the state's `steps` and `seconds`, earlier runs included.
+    """
     return {
         "program": f"genmojo {__version__}", "licence": "as the program's",
         "data": "procedural objects of this program only; no third-party image, mesh or weight",
         "generator": generator.VERSION, "test_set": recorded()["sha256"], "seed": times.seed,
-        "objects_seen": {part: count * times.objects for part, count in steps.items()},
-        "seconds": {"volume": times.volume, "denoiser": times.denoiser},
+        "objects_seen": {part: int(state["steps"]) * times.objects for part, state in states.items()},
+        "seconds": {part: round(float(state["seconds"]), 1) for part, state in states.items()},
         "sigma": [2.718281828**level for level in LOG_SIGMA],
         "held_out": {name: {k: round(v, 3) for k, v in row.items()} for name, row in table(prior.volume).items()},
     }  # fmt: skip
