@@ -11,16 +11,16 @@ from genmojo_core.errors import GenmojoError
 
 def add_commands(commands: Any) -> None:
     """Add `inspect` and `validate`."""
-    inspect = commands.add_parser("inspect", help="what a scene, a tracks npz or a clip holds")
+    inspect = commands.add_parser("inspect", help="what a scene, a tracks npz, an annotation or a clip holds")
     inspect.add_argument("file", metavar="FILE")
     inspect.set_defaults(run=run_inspect)
-    validate = commands.add_parser("validate", help="check a scene or tracks file, naming every fault")
+    validate = commands.add_parser("validate", help="check a scene, tracks or annotation file, naming every fault")
     validate.add_argument("file", metavar="FILE")
     validate.set_defaults(run=run_validate)
 
 
 def run_inspect(args: argparse.Namespace) -> dict[str, Any]:
-    """Describe a file by what it is: npz of tracks, clip (folder or video), else a scene."""
+    """Describe a file by what it is: npz of tracks, annotation project, clip (folder or video), else a scene."""
     from genmojo_core.store import npz, scene_hdf5
 
     kind = _kind(args.file)
@@ -31,21 +31,27 @@ def run_inspect(args: argparse.Namespace) -> dict[str, Any]:
                 "has_xyz": tracks.xyz is not None}  # fmt: skip
     if kind == "clip":
         return {"kind": kind, **_clip(args.file)}
+    if kind == "project":
+        return {"kind": kind, **_project(Path(args.file))}
     return {"kind": kind, **scene_hdf5.inspect(args.file)}
 
 
 def run_validate(args: argparse.Namespace) -> dict[str, Any]:
     """All faults; exit 2 if there is one."""
-    from genmojo_core.store import npz, scene_hdf5
+    from genmojo_core.store import npz, project_file, scene_hdf5
 
-    if _kind(args.file) == "tracks":
-        try:
+    kind = _kind(args.file)
+    try:
+        if kind == "project":
+            project_file.load(Path(args.file))
+            faults = project_file.verify(Path(args.file))
+        elif kind == "tracks":
             npz.read_tracks(args.file)
             faults = []
-        except GenmojoError as error:
-            faults = [error.sentence()]
-    else:
-        faults = scene_hdf5.validate(args.file)
+        else:
+            faults = scene_hdf5.validate(args.file)
+    except GenmojoError as error:
+        faults = [error.sentence()]
     return {"file": args.file, "valid": not faults, "faults": faults, "exit_code": 2 if faults else 0}
 
 
@@ -57,10 +63,28 @@ def _kind(path: str) -> str:
     if file.is_dir():
         return "clip"
     with open(file, "rb") as stream:
-        head = stream.read(8)
+        head = stream.read(16)
     if head.startswith(b"PK"):
         return "tracks"
+    if head.startswith(b"SQLite format 3"):
+        return "project"
     return "clip" if file.suffix.lower() in (".mp4", ".mov", ".mkv", ".webm", ".avi", ".png", ".jpg") else "scene"
+
+
+def _project(path: Path) -> dict[str, Any]:
+    """An annotation: how far it is, who worked on it how long (with their consent), where it can be returned to."""
+    from genmojo_core.store import project_file
+    from genmojo_core.store.time_sheet import time_sheet
+    from genmojo_core.tracks.statistics import clip_figures
+
+    loaded = project_file.load(path)
+    rows, figures = loaded.log.rows, clip_figures(loaded.annotation)
+    consent = figures["consent"] == "yes"
+    return {"clip": loaded.info.name, "size": list(loaded.info.size), **figures,
+            "edits": sum(row.verb == "do" for row in rows),
+            "checkpoints": [row.title for row in rows if row.verb == "checkpoint"],
+            "time": [vars(day) for day in time_sheet(rows)] if consent else [],
+            "backups": len(project_file.backups(path))}  # fmt: skip
 
 
 def _clip(path: str) -> dict[str, Any]:

@@ -30,7 +30,7 @@ from genmojo_core.store.safe import json_text
 from genmojo_core.tracks.annotation import Proposal
 from genmojo_core.tracks.edits import Edit, ObjectChange, TrackChange
 
-_SNAPSHOT_EVERY = 1000  # edits after which opening gets a shortcut
+_SNAPSHOT_EVERY = 300  # edits after which opening gets a shortcut
 _CACHE = 500  # edits whose data stay in memory
 
 
