@@ -9,12 +9,14 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QFileDialog, QInputDialog, QMenu
 
 from genmojo_core.errors import GenmojoError
+from genmojo_core.store import project_file
 from genmojo_core.store.track_sheet import TrackSheet
 from genmojo_core.tracks import edit_tracks
 from genmojo_core.tracks.annotation import REASONS
 from genmojo_studio import notify
 from genmojo_studio.annotate import track_files, verbs
 from genmojo_studio.annotate.log_dialog import LogDialog
+from genmojo_studio.annotate.merge_dialog import MergeDialog
 from genmojo_studio.annotate.seed_dialog import SeedDialog
 from genmojo_studio.translate import tr
 
@@ -81,7 +83,19 @@ class Dialogs:
                 self._s.show_step(step, tr("Back at: ") + row.title)
 
     def merge(self) -> None:
-        """Compare with a second annotator's file."""
+        """Compare with a second annotator's project, and merge it; a project both began from makes it three-way."""
+        kinds = "GenMOJO (*.genmojo)"
+        other, _ = QFileDialog.getOpenFileName(self._w, tr("The second annotator's project"), "", kinds)
+        if not other:
+            return
+        start, _ = QFileDialog.getOpenFileName(self._w, tr("What both began from (cancel if there is none)"), "", kinds)
+
+        def compare() -> None:
+            theirs = project_file.load(Path(other)).annotation
+            base = project_file.load(Path(start)).annotation if start else None
+            MergeDialog(self._s, theirs, base, self._w).open()
+
+        self._try(compare)
 
     def log(self) -> None:
         """Who did what, and how long it took."""

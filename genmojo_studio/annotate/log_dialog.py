@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtWidgets import (
@@ -19,10 +20,11 @@ from PySide6.QtWidgets import (
 )
 
 from genmojo_core.errors import GenmojoError
-from genmojo_core.store.atomic import write_bytes
+from genmojo_core.store import time_sheet
+from genmojo_core.tracks.statistics import clip_figures
 from genmojo_studio import notify
-from genmojo_studio.annotate import statistics
 from genmojo_studio.annotate.session import Session
+from genmojo_studio.annotate.track_tree import review_name
 from genmojo_studio.translate import tr
 
 _MOST = 2000  # rows of the log that are shown; all are exported
@@ -39,37 +41,61 @@ class LogDialog(QDialog):
         rows = session.project.log.rows
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
-        figures = statistics.figures(session.annotation, session.stride)
-        self.tabs.addTab(_table([tr("figure"), tr("value")], [[tr(a), b] for a, b in figures]), tr("Clip"))
-        sheets = [[s.person, str(s.edits), str(s.keys), f"{s.seconds / 60:.1f}", str(s.returned)]
-                  for s in statistics.sheets(rows, session.annotation)]  # fmt: skip
-        titles = [tr("person"), tr("edits"), tr("keys"), tr("minutes"), tr("sent back")]
+        self.tabs.addTab(_table([tr("figure"), tr("value")], _figures(session)), tr("Clip"))
+        sheets = [[d.person, d.day, f"{d.seconds / 60:.1f}", str(d.edits), str(d.keys), str(d.undone)]
+                  for d in time_sheet.time_sheet(rows)]  # fmt: skip
+        titles = [tr("person"), tr("day"), tr("minutes"), tr("edits"), tr("keys"), tr("undone")]
         self.tabs.addTab(_table(titles, sheets), tr("Time sheet"))
         shown = [[str(r.seq), r.title, r.who, r.at.replace("T", " ")[:19], "" if r.frame is None else str(r.frame)]
                  for r in rows[-_MOST:][::-1]]  # fmt: skip
         self.tabs.addTab(_table(["#", tr("what"), tr("who"), tr("when"), tr("frame")], shown), tr("Audit log"))
         consent = session.annotation.meta.get("consent") == "yes"
-        text = tr("Names and times are exported: consent is given.") if consent else tr(
-            "Names and times stay out of the export: no consent is given (step 4).")  # fmt: skip
+        text = tr("Names and times may be exported: consent is given.") if consent else tr(
+            "Names and times are not exported: no consent is given (step 4).")  # fmt: skip
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
-        self.export = buttons.addButton(tr("Export the log…"), QDialogButtonBox.ButtonRole.ActionRole)
-        self.export.clicked.connect(self._export)
+        self.export_sheet = buttons.addButton(tr("Export the time sheet…"), QDialogButtonBox.ButtonRole.ActionRole)
+        self.export_copy = buttons.addButton(tr("Export without names…"), QDialogButtonBox.ButtonRole.ActionRole)
+        self.export_sheet.setEnabled(consent)
+        self.export_sheet.clicked.connect(self._export_sheet)
+        self.export_copy.clicked.connect(self._export_copy)
         buttons.rejected.connect(self.reject)
         column = QVBoxLayout(self)
         column.addWidget(self.tabs)
         column.addWidget(QLabel(text, wordWrap=True))
         column.addWidget(buttons)
 
-    def _export(self) -> None:
-        name, _ = QFileDialog.getSaveFileName(self, tr("Export the log"), "log.csv", "CSV (*.csv)")
-        if not name:
-            return
-        consent = self._session.annotation.meta.get("consent") == "yes"
+    def _export_sheet(self) -> None:
+        name, _ = QFileDialog.getSaveFileName(self, tr("Export the time sheet"), "time.csv", "CSV (*.csv)")
+        consent = self._session.annotation.meta.get("consent", "")
+        if name:
+            self._try(lambda: time_sheet.write_time_sheet(self._session.project.log.rows, consent, Path(name)))
+
+    def _export_copy(self) -> None:
+        """A copy of the project in which nobody is named."""
+        name, _ = QFileDialog.getSaveFileName(self, tr("Export without names"), "copy.genmojo", "GenMOJO (*.genmojo)")
+        if name:
+            self._session.project.wait()
+            self._try(lambda: time_sheet.without_people(self._session.project.path, Path(name)))
+
+    def _try(self, work: Callable[[], object]) -> None:
         try:
-            text = statistics.log_csv(self._session.project.log.rows, with_effort=consent)
-            write_bytes(Path(name), text.encode())
+            work()
         except GenmojoError as error:
             notify.tell(error, self)
+
+
+def _figures(session: Session) -> list[list[str]]:
+    """Figures of the whole clip as rows of title and value."""
+    f = clip_figures(session.annotation)
+    shares = (
+        (tr("annotated"), "annotated"), (tr("accepted by a person"), "confirmed"), (tr("visible"), "visible"),
+        (tr("occluded"), "occluded"), (tr("out of view"), "out_of_view"), (tr("uncertain"), "uncertain"),
+    )  # fmt: skip
+    rows = [[tr("objects"), str(f["objects"])], [tr("tracks"), str(f["tracks"])],
+            [tr("keys per track (mean)"), f"{f.get('keys', 0):.1f}"]]  # fmt: skip
+    rows += [[title, f"{f[name]:.1%}"] for title, name in shares if name in f]
+    rows += [[tr("motion at 256 x 256"), f"{f['motion']:.2f} px"], [tr("tracks sent back"), f"{f['reopened']:.0%}"]]
+    return rows + [[review_name(name), str(count)] for name, count in f["reviews"].items()]
 
 
 def _table(titles: list[str], rows: list[list[str]]) -> QTableWidget:

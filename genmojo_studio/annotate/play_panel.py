@@ -124,6 +124,7 @@ class PlayPanel(QWidget):
             row.addWidget(button)
         self.position = QLabel()
         self.position.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.position.setMinimumWidth(92)
         row.addSpacing(8)
         row.addWidget(self.position, 1)
         for state, title in ((OCCLUDED, tr("occluded")), (OUT_OF_VIEW, tr("out of view")), (VISIBLE, tr("visible"))):
@@ -161,6 +162,7 @@ class PlayPanel(QWidget):
         last = self._session.annotation.frames - 1
         seconds = self._session.cache.seconds[min(frame, len(self._session.cache.seconds) - 1)]
         self.position.setText(tr("frame {n} of {last}   {s:.2f} s").format(n=frame, last=last, s=seconds))
+        self.position.setToolTip(self.position.text())
 
     def _show_playing(self, _playing: bool) -> None:
         self._dress()

@@ -4,7 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import Qt, QTimer, Signal
-from PySide6.QtWidgets import QLabel, QLineEdit, QListWidget, QListWidgetItem, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QLabel,
+    QLineEdit,
+    QListWidget,
+    QListWidgetItem,
+    QSizePolicy,
+    QSplitter,
+    QVBoxLayout,
+    QWidget,
+)
 
 from genmojo_core.tracks.annotation import KEY
 from genmojo_core.tracks.edit_tracks import update_track
@@ -97,6 +106,8 @@ class RefinePage(QWidget):
                                   (tr("why"), self.why), (tr("note"), self.note)]))  # fmt: skip
         column.addWidget(self.title)
         column.addWidget(self.queue, 1)
+        for label in (self.title, self.place, self.state, self.seed):
+            label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.tree.setMinimumHeight(80)
         self.queue.setMinimumHeight(60)
         split = QSplitter(Qt.Orientation.Vertical)

@@ -10,7 +10,7 @@ import numpy as np
 
 SIDE = 15  # pixels of the picture compared
 REACH = 10  # pixels searched on every side
-LEAST = 0.6  # correlation below which nothing is proposed
+LEAST = 0.75  # correlation below which nothing is proposed
 
 
 def snapped(

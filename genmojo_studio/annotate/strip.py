@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QImage, QMouseEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QColor, QImage, QMouseEvent, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from genmojo_core.tracks.annotation import KEY
@@ -56,6 +56,10 @@ class Strip(QWidget):
                     xy = cells.xy[frame] if known else None
                     self._tile(painter, n, frame, xy, key=bool(cells.flags[frame] & KEY))
         painter.end()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """No higher than its patches are wide."""
+        self.setMaximumHeight(int(min(max(self.width() / (2 * REACH + 1), 48), 92)))
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Go to the frame clicked."""
