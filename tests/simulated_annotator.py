@@ -1,6 +1,6 @@
 """A person who annotates a clip with exact truth, at the level of data: sees every second frame, clicks with noise.
 
-Rules (issue 5): five points per object on the first frame; a visited frame is corrected where a visible point is off
+Rules (issue 5): the five most trackable points per object on the first frame; a visited frame is corrected where a visible point is off
 by more than 3 px as seen, or its state is wrong; clicks have 1 px noise; a state is painted by one stroke as far as
 it holds; Enter accepts the frame. Then the worst spots of the queue are visited. Every click, drag and stroke counts.
 All pixels are those of a 1920 x 1080 picture.
@@ -19,9 +19,10 @@ from genmojo_core.clip import folders
 from genmojo_core.clip.clip import Channel, Clip
 from genmojo_core.store.npz import read_tracks
 from genmojo_core.trackers.evidence import scene_of
+from genmojo_core.trackers.seeding import OpticalSeeder, Queries, Seeder, proposals
 from genmojo_core.trackers.solver import SHORT_SIDE, SolveRequest, TrackSolver
 from genmojo_core.tracks import edit_tracks, keys
-from genmojo_core.tracks.annotation import Annotation, ObjectInfo
+from genmojo_core.tracks.annotation import TRACKER, Annotation, ObjectInfo
 from genmojo_core.tracks.model import OCCLUDED, VISIBLE, PointTracks
 from genmojo_core.tracks.suspicion import SUSPICIOUS, Spot, assess, queue
 
@@ -43,6 +44,19 @@ def full_hd(folder: Path, short_side: int = SHORT_SIDE) -> Clip:
 def truth_of(folder: Path) -> PointTracks:
     """Its true tracks, in pixels of 1920 x 1080."""
     return read_tracks(folder / "truth.npz", (480, 270)).resized(*FULL)
+
+
+def most_trackable(clip: Clip, truth: PointTracks, object_id: int) -> np.ndarray:
+    """Rows of an object's points seen in the first frame, those with the most texture around them first.
+
+    So a person chooses, with the trackability meter (corner strength) on the screen.
+    """
+    rows = np.flatnonzero((truth.object == object_id) & truth.visible[:, 0])
+    gray = cv2.cvtColor(clip.frames[0], cv2.COLOR_RGB2GRAY)
+    strength = cv2.cornerMinEigenVal(gray, max(gray.shape[0] // 40, 3))
+    places = truth.xy[rows, 0] * np.array(clip.size) / np.array(FULL)
+    x, y = np.clip(places, 0, np.array(clip.size) - 1).astype(int).T
+    return rows[np.argsort(-strength[y, x], kind="stable")]
 
 
 def _upscaled(frame: np.ndarray, size: tuple[int, int]) -> np.ndarray:
@@ -72,11 +86,14 @@ class Report:
 class Person:
     """Annotates one clip; `run` does everything and returns the Report."""
 
-    def __init__(self, clip: Clip, truth: PointTracks, seed: int = 0, points: int = 5) -> None:
+    def __init__(
+        self, clip: Clip, truth: PointTracks, seeder: Seeder | None = None, seed: int = 0, points: int = 5
+    ) -> None:
         self.rng = np.random.default_rng(seed)
         self.clip, self.truth = clip, truth
         self.annotation = Annotation(len(clip), FULL)
         self.solver = TrackSolver(clip)
+        self.seeder: Seeder = seeder or OpticalSeeder(self.solver)
         self.row: dict[int, int] = {}  # track -> row of the truth
         self.keys: dict[int, int] = {}
         self.strokes: dict[int, int] = {}
@@ -87,7 +104,7 @@ class Person:
         ]
         edit_tracks.put_objects(self.annotation, infos).do(self.annotation)
         for info in infos:
-            rows = np.flatnonzero((truth.object == info.id) & truth.visible[:, 0])[:points]
+            rows = most_trackable(clip, truth, info.id)[:points]
             for number, row in enumerate(rows):
                 made = edit_tracks.add_track(self.annotation, info.id, number + 1, "simulated")
                 made.do(self.annotation)
@@ -96,8 +113,9 @@ class Person:
 
     def run(self, stride: int = 2, share: float = 0.2) -> Report:
         """Seed, refine every `stride` frames, then visit the first `share` of the queue."""
-        for info in self.annotation.chosen_objects():
-            self._solve(info.id, None)
+        ids, queries = Queries.of(self.annotation)
+        found = proposals(self.seeder.seed(self.clip, queries), ids, self.seeder.name)
+        keys.accept(self.annotation, found, TRACKER).do(self.annotation)
         for t in range(stride, len(self.clip), stride):
             self.visit(t, list(self.row))
         for spot in self.worst(share):
@@ -150,9 +168,8 @@ class Person:
         x, y = self.truth.xy[row, t] + self.rng.normal(0.0, NOISE, 2)
         return float(x), float(y)
 
-    def _solve(self, object_id: int, key: tuple[int, int] | None) -> None:
+    def _solve(self, object_id: int, key: tuple[int, int]) -> None:
         began = time.process_time()
         answer = self.solver.answer(SolveRequest.of(self.annotation, object_id, key))
-        if key is not None:
-            self.seconds.append(time.process_time() - began)
+        self.seconds.append(time.process_time() - began)
         answer.edit(self.annotation).do(self.annotation)
