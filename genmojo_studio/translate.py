@@ -20,6 +20,11 @@ def tr(text: str) -> str:
     return QCoreApplication.translate(CONTEXT, text)
 
 
+def mark(text: str) -> str:
+    """A text of a table, translated by `tr` where it is shown; this only lets packaging/translations.py find it."""
+    return text
+
+
 def install(language: str) -> list[QTranslator]:
     """Switches the application to a language of `LANGUAGES`, or to the system's if it is empty.
 

@@ -3,7 +3,7 @@
     python packaging/translations.py            # update and compile
     python packaging/translations.py --check    # exit 1 if a text is missing, unfinished or not compiled
 
-Texts are the arguments of `tr("...")` in genmojo_studio and the texts, menus and helps of the action tables. Qt's own
+Texts are the arguments of `tr("...")` and `mark("...")` in genmojo_studio and the texts, menus and helps of the action tables. Qt's own
 lupdate does not know the action tables, so the source is read here; pyside6-lrelease compiles.
 """
 
@@ -97,7 +97,7 @@ def _translations(path: Path) -> dict[str, str]:
 
 def _argument(node: ast.AST) -> list[str]:
     """The text of a call tr("..."), if the node is one."""
-    if not isinstance(node, ast.Call) or _name(node.func) != "tr" or not node.args:
+    if not isinstance(node, ast.Call) or _name(node.func) not in ("tr", "mark") or not node.args:
         return []
     first = node.args[0]
     return [first.value] if isinstance(first, ast.Constant) and isinstance(first.value, str) else []

@@ -49,6 +49,7 @@ def _connect(w: AnnotateWorkspace) -> None:
     for page in (w.points, w.refine, w.review):
         page.tree.chosen.connect(session.select)
     work.figures_ready.connect(w.objects.set_figures)
+    work.tracker.measured.connect(w.play.graphs.set_measures)
     work.masks_changed.connect(w.screen_link.presenter.forget_masks)
     work.masks_changed.connect(w.screen_link.refresh)
     work.busy_changed.connect(w.say)

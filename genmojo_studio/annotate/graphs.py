@@ -13,14 +13,11 @@ from genmojo_studio.annotate.colours import point_colour
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.translate import tr
 
-CURVES = ("x", "y", "speed", "acceleration", "confidence", "suspicion")
-
 
 class Graphs(QWidget):
     """One plot with the curve chosen, of the active track and faintly of its object's others."""
 
     seek = Signal(int)
-    pulled = Signal(int, str, float)  # frame, "x" or "y", raster value a key was dragged to
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -52,6 +49,11 @@ class Graphs(QWidget):
         session.edited.connect(self._later)
         session.selected.connect(self._later)
         session.frame_changed.connect(self._move)
+
+    def set_measures(self, measures: dict[int, dict[str, np.ndarray]]) -> None:
+        """What the pictures say about tracks: forward-backward error and likeness, (T,) each."""
+        self.measures |= {t: {n: v for n, v in m.items() if v is not None} for t, m in measures.items()}
+        self._later()
 
     def showEvent(self, event: object) -> None:
         """Curves are made when they are looked at."""

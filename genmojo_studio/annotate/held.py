@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QEvent, QObject
 from PySide6.QtGui import QKeyEvent, QKeySequence
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QWidget
 
 from genmojo_studio.actions import ActionTable
 
@@ -22,12 +22,10 @@ class HeldKeys(QObject):
 
     def __init__(self, owner: QWidget, actions: ActionTable) -> None:
         super().__init__(owner)
-        self._owner, self._actions = owner, actions
+        self._actions = actions
         self._ends: dict[str, Verb] = {}
         self._down: dict[int, str] = {}
-        application = QApplication.instance()
-        if application is not None:
-            application.installEventFilter(self)
+        owner.installEventFilter(self)  # keys that nobody below keeps come up to it, overrides too
 
     def add(self, action_id: str, begin: Verb, tapped: Verb, end: Verb) -> None:
         """Bind an action: `begin` if a key is held for it, `tapped` if it came from a menu, `end` on release."""
@@ -47,11 +45,11 @@ class HeldKeys(QObject):
         kind = event.type()
         if kind == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and not event.isAutoRepeat():
             action_id = self._action_of(event)
-            if action_id and self._owner.isVisible():
+            if action_id:
                 self._down[event.key()] = action_id
         elif kind == QEvent.Type.KeyRelease and isinstance(event, QKeyEvent) and not event.isAutoRepeat():
             self._release(event.key())
-        elif kind == QEvent.Type.WindowDeactivate and watched is self._owner.window():
+        elif kind == QEvent.Type.WindowDeactivate:
             for key in list(self._down):
                 self._release(key)
         return False

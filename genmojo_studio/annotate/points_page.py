@@ -9,21 +9,21 @@ from genmojo_core.tracks.edit_tracks import update_track
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.track_tree import TrackTree
 from genmojo_studio.annotate.trackability import Meter
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import mark, tr
 
 TEMPLATES: dict[str, tuple[str, ...]] = {
     "free": ("", "", "", "", ""),
-    "animal": ("left eye", "right eye", "nose", "front paw", "tail"),
-    "person": ("head", "left hand", "right hand", "left foot", "right foot"),
-    "fish": ("eye", "mouth", "back fin", "belly fin", "tail"),
-    "vehicle": ("front left", "front right", "rear left", "rear right", "roof"),
-    "box": ("corner 1", "corner 2", "corner 3", "corner 4", "centre mark"),
+    "animal": (mark("left eye"), mark("right eye"), mark("nose"), mark("front paw"), mark("tail")),
+    "person": (mark("head"), mark("left hand"), mark("right hand"), mark("left foot"), mark("right foot")),
+    "fish": (mark("eye"), mark("mouth"), mark("back fin"), mark("belly fin"), mark("tail")),
+    "vehicle": (mark("front left"), mark("front right"), mark("rear left"), mark("rear right"), mark("roof")),
+    "box": (mark("corner 1"), mark("corner 2"), mark("corner 3"), mark("corner 4"), mark("centre mark")),
 }
 _WARNINGS = {
-    "off mask": "Off the object's mask.",
-    "near": "Less than 8 px from another point.",
-    "flat": "Nothing to hold on to: flat.",
-    "edge": "Only an edge: it slides along.",
+    "off mask": mark("Off the object's mask."),
+    "near": mark("Less than 8 px from another point."),
+    "flat": mark("Nothing to hold on to: flat."),
+    "edge": mark("Only an edge: it slides along."),
 }
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from genmojo_core.tracks.annotation import CONFIRMED, KEY, Annotation
 from genmojo_core.tracks.model import NONE
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import mark, tr
 
 Gate = Callable[[Annotation, int, int], str]
 
@@ -72,39 +72,100 @@ def _review_missing(annotation: Annotation, points: int, stride: int) -> str:
 
 
 SHORT = {  # what a narrow button says where the menu's text is too long
-    "move.accept": "Accept, go on", "move.worst": "Next doubt", "move.bisect": "Middle of gap", "move.loop": "Loop",
-    "point.outside": "Out of view", "point.key": "Key", "point.snap": "Snap", "point.delete_key": "Delete key",
-    "track.solve": "Solve", "track.on": "Track on", "track.back": "Track back", "track.mode": "Fill mode",
-    "track.seed": "Seed…", "track.lock": "Lock", "track.delete": "Delete track", "view.fit": "Fit", "view.one": "1:1",
-    "view.follow": "Follow", "view.loupe_stay": "Loupe", "view.masks": "Masks", "view.trails": "Trails",
-    "view.strip": "Strip", "review.approve": "Approve", "review.fix": "Needs a fix", "review.merge": "Compare…",
-    "review.log": "Log…", "file.export": "Export…", "file.import": "Import…", "edit.checkpoint": "Name…",
-}  # fmt: skip
+    "move.accept": mark("Accept, go on"),
+    "move.worst": mark("Next doubt"),
+    "move.bisect": mark("Middle of gap"),
+    "move.loop": mark("Loop"),
+    "point.outside": mark("Out of view"),
+    "point.key": mark("Key"),
+    "point.snap": mark("Snap"),
+    "point.delete_key": mark("Delete key"),
+    "track.solve": mark("Solve"),
+    "track.on": mark("Track on"),
+    "track.back": mark("Track back"),
+    "track.mode": mark("Fill mode"),
+    "track.seed": mark("Seed…"),
+    "track.lock": mark("Lock"),
+    "track.delete": mark("Delete track"),
+    "view.fit": mark("Fit"),
+    "view.one": mark("1:1"),
+    "view.follow": mark("Follow"),
+    "view.loupe_stay": mark("Loupe"),
+    "view.masks": mark("Masks"),
+    "view.trails": mark("Trails"),
+    "view.strip": mark("Strip"),
+    "review.approve": mark("Approve"),
+    "review.fix": mark("Needs a fix"),
+    "review.merge": mark("Compare…"),
+    "review.log": mark("Log…"),
+    "file.export": mark("Export…"),
+    "file.import": mark("Import…"),
+    "edit.checkpoint": mark("Name…"),
+}
 
 
 def _ids(*names: str) -> tuple[str, ...]:
     return tuple(f"annotate.{name}" for name in names)
 
 
-_STATES = ("States", _ids("point.visible", "point.occluded", "point.outside", "point.uncertain"))
-_LOOK = ("Look", _ids("view.fit", "view.one", "view.follow", "view.loupe_stay", "view.masks", "view.trails",
-                      "view.strip"))  # fmt: skip
+_STATES = (mark("States"), _ids("point.visible", "point.occluded", "point.outside", "point.uncertain"))
+_LOOK = (
+    mark("Look"),
+    _ids("view.fit", "view.one", "view.follow", "view.loupe_stay", "view.masks", "view.trails", "view.strip"),
+)
 
 STEPS = (
-    Step("objects", "Objects", "Choose the moving objects to annotate, and say why the others are left out.",
-         (("Masks", _ids("view.masks", "view.fit", "view.one")), ("History", _ids("edit.undo", "edit.redo"))),
-         "objects", _objects_missing),
-    Step("points", "Points and seed", "Place the key points of every object on its first frame, then seed the tracks.",
-         (("Place", _ids("point.snap", "point.key", "point.delete_key", "track.delete")),
-          ("Seed", _ids("track.seed", "file.import")), _LOOK, ("History", _ids("edit.undo", "edit.redo"))),
-         "points", _points_missing),
-    Step("refine", "Refine", "Step through the clip with Enter; put right what is wrong; N goes to the next doubt.",
-         (("Step", _ids("move.accept", "move.worst", "move.bisect")), _STATES,
-          ("Point", _ids("point.key", "point.snap", "point.delete_key")),
-          ("Track", _ids("track.solve", "track.on", "track.back", "track.mode", "track.seed", "track.lock")), _LOOK,
-          ("Review", _ids("review.fixed")), ("History", _ids("edit.undo", "edit.redo"))), "refine", _refine_missing),
-    Step("review", "Review", "Watch every track; approve it, or return it with a reason.",
-         (("Decide", _ids("review.approve", "review.fix", "move.worst", "move.loop")),
-          ("Together", _ids("review.merge", "review.log", "file.export")), _LOOK,
-          ("History", _ids("edit.undo", "edit.redo", "edit.checkpoint"))), "review", _review_missing),
-)  # fmt: skip
+    Step(
+        "objects",
+        mark("Objects"),
+        mark("Choose the moving objects to annotate, and say why the others are left out."),
+        (
+            (mark("Masks"), _ids("view.masks", "view.fit", "view.one")),
+            (mark("History"), _ids("edit.undo", "edit.redo")),
+        ),
+        "objects",
+        _objects_missing,
+    ),
+    Step(
+        "points",
+        mark("Points and seed"),
+        mark("Place the key points of every object on its first frame, then seed the tracks."),
+        (
+            (mark("Place"), _ids("point.snap", "point.key", "point.delete_key", "track.delete")),
+            (mark("Seed"), _ids("track.seed", "file.import")),
+            _LOOK,
+            (mark("History"), _ids("edit.undo", "edit.redo")),
+        ),
+        "points",
+        _points_missing,
+    ),
+    Step(
+        "refine",
+        mark("Refine"),
+        mark("Step through the clip with Enter; put right what is wrong; N goes to the next doubt."),
+        (
+            (mark("Step"), _ids("move.accept", "move.worst", "move.bisect")),
+            _STATES,
+            (mark("Point"), _ids("point.key", "point.snap", "point.delete_key")),
+            (mark("Track"), _ids("track.solve", "track.on", "track.back", "track.mode", "track.seed", "track.lock")),
+            _LOOK,
+            (mark("Review"), _ids("review.fixed")),
+            (mark("History"), _ids("edit.undo", "edit.redo")),
+        ),
+        "refine",
+        _refine_missing,
+    ),
+    Step(
+        "review",
+        mark("Review"),
+        mark("Watch every track; approve it, or return it with a reason."),
+        (
+            (mark("Decide"), _ids("review.approve", "review.fix", "move.worst", "move.loop")),
+            (mark("Together"), _ids("review.merge", "review.log", "file.export")),
+            _LOOK,
+            (mark("History"), _ids("edit.undo", "edit.redo", "edit.checkpoint")),
+        ),
+        "review",
+        _review_missing,
+    ),
+)

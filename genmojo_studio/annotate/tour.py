@@ -10,7 +10,7 @@ from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import mark, tr
 
 if TYPE_CHECKING:
     from genmojo_studio.annotate.workspace import AnnotateWorkspace
@@ -27,26 +27,91 @@ class Stop:
 
 
 STOPS = (
-    Stop(0, lambda w: w.bar, "Four steps", "Objects, points, refining, review. Each says what it still lacks. You can "
-         "go back at any time: Alt+1 to Alt+4."),
-    Stop(0, lambda w: w.objects.table, "Objects", "Every mask is a candidate, with size, motion and how often it is "
-         "hidden. Select a row and press Choose, or leave it out with a reason."),
-    Stop(0, lambda w: w.objects.cut, "More objects", "No mask? Draw a box around the object, or click and scribble on "
-         "it, then Cut out. It is followed through the clip."),
-    Stop(1, lambda w: w.canvas, "Points", "Click five points on each object; the next one is chosen for you. Hold Z "
-         "for the loupe, Ctrl and an arrow nudge by a quarter of a pixel."),
-    Stop(1, lambda w: w.points.meter, "A good place", "A corner can be followed, an edge slides, a flat place is lost. "
-         "The bar shows it for the place under the mouse."),
-    Stop(1, lambda w: w.points.seed, "Seed", "A tracker proposes the rest. It never overwrites what you placed."),
-    Stop(2, lambda w: w.play.sheet, "Dope sheet", "Fill: visible. Hatch: occluded. Diamond: your key. Red: doubtful. "
-         "Click to go there, drag to paint a state."),
-    Stop(2, lambda w: w.canvas, "Refine", "Enter accepts the points of a frame and goes on. Drag a point that is off: "
-         "both segments beside it are solved again. Hold Q and step to paint occlusion."),
-    Stop(2, lambda w: w.refine.queue, "The queue", "N goes to the next most suspicious spot, and says why it is "
-         "suspicious."),
-    Stop(3, lambda w: w.review.approve_button, "Review", "Somebody else approves each track, or returns it with a "
-         "reason. Everything is stored as you work; Ctrl+Z takes back anything, even tomorrow."),
-)  # fmt: skip
+    Stop(
+        0,
+        lambda w: w.bar,
+        mark("Four steps"),
+        mark(
+            "Objects, points, refining, review. Each says what it still lacks. You can "
+            "go back at any time: Alt+1 to Alt+4."
+        ),
+    ),
+    Stop(
+        0,
+        lambda w: w.objects.table,
+        mark("Objects"),
+        mark(
+            "Every mask is a candidate, with size, motion and how often it is "
+            "hidden. Select a row and press Choose, or leave it out with a reason."
+        ),
+    ),
+    Stop(
+        0,
+        lambda w: w.objects.cut,
+        mark("More objects"),
+        mark(
+            "No mask? Draw a box around the object, or click and scribble on "
+            "it, then Cut out. It is followed through the clip."
+        ),
+    ),
+    Stop(
+        1,
+        lambda w: w.canvas,
+        mark("Points"),
+        mark(
+            "Click five points on each object; the next one is chosen for you. Hold Z "
+            "for the loupe, Ctrl and an arrow nudge by a quarter of a pixel."
+        ),
+    ),
+    Stop(
+        1,
+        lambda w: w.points.meter,
+        mark("A good place"),
+        mark(
+            "A corner can be followed, an edge slides, a flat place is lost. "
+            "The bar shows it for the place under the mouse."
+        ),
+    ),
+    Stop(
+        1,
+        lambda w: w.points.seed,
+        mark("Seed"),
+        mark("A tracker proposes the rest. It never overwrites what you placed."),
+    ),
+    Stop(
+        2,
+        lambda w: w.play.sheet,
+        mark("Dope sheet"),
+        mark(
+            "Fill: visible. Hatch: occluded. Diamond: your key. Red: doubtful. "
+            "Click to go there, drag to paint a state."
+        ),
+    ),
+    Stop(
+        2,
+        lambda w: w.canvas,
+        mark("Refine"),
+        mark(
+            "Enter accepts the points of a frame and goes on. Drag a point that is off: "
+            "both segments beside it are solved again. Hold Q and step to paint occlusion."
+        ),
+    ),
+    Stop(
+        2,
+        lambda w: w.refine.queue,
+        mark("The queue"),
+        mark("N goes to the next most suspicious spot, and says why it is suspicious."),
+    ),
+    Stop(
+        3,
+        lambda w: w.review.approve_button,
+        mark("Review"),
+        mark(
+            "Somebody else approves each track, or returns it with a "
+            "reason. Everything is stored as you work; Ctrl+Z takes back anything, even tomorrow."
+        ),
+    ),
+)
 
 
 class Tour(QFrame):

@@ -47,6 +47,7 @@ class Tracking(QObject):
     busy_changed = Signal(str)
     solved = Signal(int)  # tracks changed
     progressed = Signal(float)  # 0..1 of a seeding
+    measured = Signal(object)  # track -> {"fb": (T,) px, "ncc": (T,)}, for graphs
     seeded = Signal(int)  # tracks filled, 0 if cancelled or failed
 
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
@@ -273,6 +274,7 @@ class Tracking(QObject):
         known = {t: e for t, e in self.evidence.items() if t in session.annotation.tracks}
         self.suspicions = suspicion.assess(session.annotation, scene_of(session.clip), known, self.calibration)
         session.suspicion = {t: s.score for t, s in self.suspicions.items()}
+        self.measured.emit({t: {"fb": e.gap, "ncc": e.likeness} for t, e in known.items()})
         spots = suspicion.queue(session.annotation, self.suspicions)
         self.spots_ready.emit([s for s in spots if s.score >= SHOWN])
         session.shown.emit()
