@@ -3,7 +3,7 @@
     python packaging/translations.py            # update and compile
     python packaging/translations.py --check    # exit 1 if a text is missing, unfinished or not compiled
 
-Texts are the arguments of `tr("...")` and `mark("...")` in genmojo_studio and the texts, menus and helps of the action tables. Qt's own
+Texts are the arguments of `tr("...")` and `mark("...")` in genmojo_studio, and those of the action tables. Qt's own
 lupdate does not know the action tables, so the source is read here; pyside6-lrelease compiles.
 """
 
