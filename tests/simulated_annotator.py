@@ -1,9 +1,9 @@
 """A person who annotates a clip with exact truth, at the level of data: sees every second frame, clicks with noise.
 
-Rules (issue 5): the five most trackable points per object on the first frame; a visited frame is corrected where a visible point is off
-by more than 3 px as seen, or its state is wrong; clicks have 1 px noise; a state is painted by one stroke as far as
-it holds; Enter accepts the frame. Then the worst spots of the queue are visited. Every click, drag and stroke counts.
-All pixels are those of a 1920 x 1080 picture.
+Rules (issue 5): the five most trackable points per object on the first frame; a visited frame is corrected where a
+visible point is off by more than 3 px as seen, or its state is wrong; clicks have 1 px noise; a state is painted by one
+stroke as far as it holds; Enter accepts the frame. Then the worst spots of the queue are visited. Every click, drag and
+stroke counts. All pixels are those of a 1920 x 1080 picture.
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE, PointTracks
 @pytest.fixture(scope="module")
 def made() -> tuple:
     """The procedural clip of two objects that cross, its solver and truth in source pixels."""
-    clip, truth = generate(replace(spec("crossing-shapes"), frames=16, novel_every=0))
+    clip, truth = generate(replace(spec("crossing-shapes"), frames=12, novel_every=0))
     return clip, points_of(truth, clip.source_size), TrackSolver(clip)
 
 
@@ -83,7 +83,7 @@ def test_an_answer_that_comes_too_late_changes_nothing(made: tuple) -> None:
 
 
 def test_a_segment_of_fifty_frames_is_solved_in_time() -> None:
-    clip, truth = generate(replace(spec("crossing-shapes"), frames=50, novel_every=0))
+    clip, truth = generate(replace(spec("crossing-shapes"), frames=50, size=(96, 54), novel_every=0))
     annotation, rows = begun(clip, points_of(truth, clip.source_size), points=5)
     solver, owner = TrackSolver(clip), int(clip.object_ids[0])
     solver.answer(SolveRequest.of(annotation, owner)).edit(annotation).do(annotation)
