@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -24,7 +24,7 @@ NEAR_AZIMUTH = 15.0  # degrees: closer to the reference the frames themselves sa
 class Condition:
     """One reference as the networks see it.
 
-    volume: (1, 4, bins, side, side), computed once. reference: without its pictures' size.
+    volume: (1, 4, bins, side, side), computed once. reference: what it was made from.
     """
 
     volume: Tensor
@@ -108,12 +108,6 @@ def view_cameras(reference: Reference, views: ViewOffsets, distance: float) -> n
         start[2, 3] = distance + float(radius)
         poses.append(orbit_camera(start, np.zeros(3), np.array(reference.up), float(elevation), float(azimuth)))
     return np.stack(poses)
-
-
-def without_pictures(reference: Reference) -> Reference:
-    """A reference reduced to its geometry."""
-    nothing = torch.zeros(0)
-    return replace(reference, picture=nothing, hidden=nothing, depth=nothing, known=nothing)
 
 
 def _confidence(mean: Tensor, views: ViewOffsets) -> Tensor:

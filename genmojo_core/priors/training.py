@@ -27,7 +27,7 @@ from genmojo_core.store.atomic import write_bytes
 
 EMA = 0.995
 REPORT_EVERY = 60.0  # seconds of CPU time between measurements and checkpoints
-FIRST_SEED, LAST_SEED = 0, 2**31 - 1
+LAST_SEED = 2**31 - 1
 
 
 @dataclass(frozen=True)
