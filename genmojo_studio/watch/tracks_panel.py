@@ -145,13 +145,13 @@ class TracksPanel(QWidget):
             item.setCheckState(0, Qt.CheckState.Checked if one.shown else Qt.CheckState.Unchecked)
             self.list.addTopLevelItem(item)
         self.list.blockSignals(False)
-        for box, default in ((self.which, "predicted"), (self.reference, "annotated")):
-            before = box.currentData()
+        chosen = self.which.currentData(), self.reference.currentData()
+        for box, before, default in zip((self.which, self.reference), chosen, ("predicted", "annotated"), strict=True):
             box.clear()
             for one in self.sets.sets.values():
                 box.addItem(one.name, one.name)
-            wanted = before if before in self.sets.sets else self._first_of(default)
-            box.setCurrentIndex(max(box.findData(wanted), 0))
+            kept = before in self.sets.sets and chosen[0] != chosen[1]
+            box.setCurrentIndex(max(box.findData(before if kept else self._first_of(default)), 0))
         self._compare()
         self.changed.emit()
 
