@@ -76,6 +76,18 @@
       <translation>Zurück zu</translation>
     </message>
     <message>
+      <source>The second annotator's project</source>
+      <translation>Das Projekt der zweiten Person</translation>
+    </message>
+    <message>
+      <source>What both began from (cancel if there is none)</source>
+      <translation>Wovon beide ausgingen (abbrechen, wenn es das nicht gibt)</translation>
+    </message>
+    <message>
+      <source>Import tracks</source>
+      <translation>Spuren importieren</translation>
+    </message>
+    <message>
       <source>Export tracks</source>
       <translation>Spuren exportieren</translation>
     </message>
@@ -84,16 +96,16 @@
       <translation>Noch kein Stand hat einen Namen (Strg+S).</translation>
     </message>
     <message>
-      <source>There are no masks yet: make one in step 1.</source>
-      <translation>Noch keine Masken: legen Sie in Schritt 1 eine an.</translation>
-    </message>
-    <message>
       <source>Named: {name}</source>
       <translation>Benannt: {name}</translation>
     </message>
     <message>
       <source>Back at: </source>
       <translation>Zurück bei: </translation>
+    </message>
+    <message>
+      <source>Exported: {name}</source>
+      <translation>Exportiert: {name}</translation>
     </message>
     <message>
       <source>Dope sheet: states of all points over time</source>
@@ -192,6 +204,14 @@
       <translation>Person</translation>
     </message>
     <message>
+      <source>day</source>
+      <translation>Tag</translation>
+    </message>
+    <message>
+      <source>minutes</source>
+      <translation>Minuten</translation>
+    </message>
+    <message>
       <source>edits</source>
       <translation>Änderungen</translation>
     </message>
@@ -200,12 +220,8 @@
       <translation>Schlüssel</translation>
     </message>
     <message>
-      <source>minutes</source>
-      <translation>Minuten</translation>
-    </message>
-    <message>
-      <source>sent back</source>
-      <translation>zurückgegeben</translation>
+      <source>undone</source>
+      <translation>zurückgenommen</translation>
     </message>
     <message>
       <source>Time sheet</source>
@@ -216,20 +232,60 @@
       <translation>Protokoll der Änderungen</translation>
     </message>
     <message>
-      <source>Names and times are exported: consent is given.</source>
-      <translation>Namen und Zeiten werden exportiert: die Einwilligung liegt vor.</translation>
+      <source>Names and times may be exported: consent is given.</source>
+      <translation>Namen und Zeiten dürfen exportiert werden: Die Zustimmung liegt vor.</translation>
     </message>
     <message>
-      <source>Names and times stay out of the export: no consent is given (step 4).</source>
-      <translation>Namen und Zeiten bleiben aus dem Export: keine Einwilligung (Schritt 4).</translation>
+      <source>Names and times are not exported: no consent is given (step 4).</source>
+      <translation>Namen und Zeiten werden nicht exportiert: Es liegt keine Zustimmung vor (Schritt 4).</translation>
     </message>
     <message>
-      <source>Export the log…</source>
-      <translation>Protokoll exportieren…</translation>
+      <source>Export the time sheet…</source>
+      <translation>Zeitblatt exportieren…</translation>
     </message>
     <message>
-      <source>Export the log</source>
-      <translation>Protokoll exportieren</translation>
+      <source>Export without names…</source>
+      <translation>Ohne Namen exportieren…</translation>
+    </message>
+    <message>
+      <source>Export the time sheet</source>
+      <translation>Zeitblatt exportieren</translation>
+    </message>
+    <message>
+      <source>Export without names</source>
+      <translation>Ohne Namen exportieren</translation>
+    </message>
+    <message>
+      <source>annotated</source>
+      <translation>annotiert</translation>
+    </message>
+    <message>
+      <source>accepted by a person</source>
+      <translation>von einem Menschen bestätigt</translation>
+    </message>
+    <message>
+      <source>uncertain</source>
+      <translation>unsicher</translation>
+    </message>
+    <message>
+      <source>objects</source>
+      <translation>Objekte</translation>
+    </message>
+    <message>
+      <source>tracks</source>
+      <translation>Spuren</translation>
+    </message>
+    <message>
+      <source>keys per track (mean)</source>
+      <translation>Schlüssel je Spur (Mittel)</translation>
+    </message>
+    <message>
+      <source>motion at 256 x 256</source>
+      <translation>Bewegung bei 256 x 256</translation>
+    </message>
+    <message>
+      <source>tracks sent back</source>
+      <translation>zurückgegebene Spuren</translation>
     </message>
     <message>
       <source>figure</source>
@@ -268,6 +324,74 @@
       <translation>jetzt</translation>
     </message>
     <message>
+      <source>Compare with a second annotator</source>
+      <translation>Mit einer zweiten Person vergleichen</translation>
+    </message>
+    <message>
+      <source>What only they changed is taken over; of conflicts, what you choose. One step; it can be undone.</source>
+      <translation>Was nur dort geändert wurde, wird übernommen; bei Widersprüchen das, was Sie wählen. Ein Schritt, der zurückgenommen werden kann.</translation>
+    </message>
+    <message>
+      <source>Merge</source>
+      <translation>Zusammenführen</translation>
+    </message>
+    <message>
+      <source>Differences between the two annotators</source>
+      <translation>Unterschiede zwischen den beiden Personen</translation>
+    </message>
+    <message>
+      <source>you</source>
+      <translation>Sie</translation>
+    </message>
+    <message>
+      <source>them</source>
+      <translation>die anderen</translation>
+    </message>
+    <message>
+      <source>both</source>
+      <translation>beide</translation>
+    </message>
+    <message>
+      <source>{n} tracks in common. AJ {aj:.1f}, δ {delta:.1f}, OA {oa:.1f} %. Distance where both see the point: median {median:.2f} px, 90 % below {p90:.2f} px (1080 lines). Same state in {states:.1%}.</source>
+      <translation>{n} gemeinsame Spuren. AJ {aj:.1f}, δ {delta:.1f}, OA {oa:.1f} %. Abstand, wo beide den Punkt sehen: Median {median:.2f} px, 90 % unter {p90:.2f} px (1080 Zeilen). Gleicher Zustand in {states:.1%}.</translation>
+    </message>
+    <message>
+      <source>point</source>
+      <translation>Punkt</translation>
+    </message>
+    <message>
+      <source>frames</source>
+      <translation>Bilder</translation>
+    </message>
+    <message>
+      <source>changed by</source>
+      <translation>geändert von</translation>
+    </message>
+    <message>
+      <source>distance</source>
+      <translation>Abstand</translation>
+    </message>
+    <message>
+      <source>take</source>
+      <translation>nehmen</translation>
+    </message>
+    <message>
+      <source>What to take</source>
+      <translation>Was übernommen wird</translation>
+    </message>
+    <message>
+      <source>mine</source>
+      <translation>meines</translation>
+    </message>
+    <message>
+      <source>theirs</source>
+      <translation>ihres</translation>
+    </message>
+    <message>
+      <source>the middle</source>
+      <translation>die Mitte</translation>
+    </message>
+    <message>
       <source>Cut out</source>
       <translation>Ausschneiden</translation>
     </message>
@@ -286,6 +410,10 @@
     <message>
       <source>seen in few frames</source>
       <translation>in wenigen Bildern zu sehen</translation>
+    </message>
+    <message>
+      <source>✓ chosen, ? undecided (! something speaks against it), ✗ left out</source>
+      <translation>✓ gewählt, ? offen (! etwas spricht dagegen), ✗ weggelassen</translation>
     </message>
     <message>
       <source>Median share of the frame</source>
@@ -336,24 +464,8 @@
       <translation>Reihenfolge der Objekte</translation>
     </message>
     <message>
-      <source>chosen</source>
-      <translation>gewählt</translation>
-    </message>
-    <message>
-      <source>?</source>
-      <translation>?</translation>
-    </message>
-    <message>
-      <source>left out</source>
-      <translation>weggelassen</translation>
-    </message>
-    <message>
       <source>object</source>
       <translation>Objekt</translation>
-    </message>
-    <message>
-      <source>choice</source>
-      <translation>Wahl</translation>
     </message>
     <message>
       <source>size</source>
@@ -364,8 +476,8 @@
       <translation>Bewegung</translation>
     </message>
     <message>
-      <source>seen / cut</source>
-      <translation>gesehen / angeschnitten</translation>
+      <source>seen/cut</source>
+      <translation>zu sehen/verdeckt</translation>
     </message>
     <message>
       <source>Choose</source>
@@ -384,8 +496,8 @@
       <translation>Später</translation>
     </message>
     <message>
-      <source>Add by</source>
-      <translation>Hinzufügen durch</translation>
+      <source>Add</source>
+      <translation>Neu</translation>
     </message>
     <message>
       <source>box</source>
@@ -396,8 +508,8 @@
       <translation>Ziehen Sie ein Rechteck um das Objekt</translation>
     </message>
     <message>
-      <source>click / scribble</source>
-      <translation>Klick / Strich</translation>
+      <source>stroke</source>
+      <translation>Strich</translation>
     </message>
     <message>
       <source>Click on it or draw over it</source>
@@ -440,6 +552,10 @@
       <translation>Zustand, den Ziehen malt</translation>
     </message>
     <message>
+      <source>What a drag over the dope sheet paints</source>
+      <translation>Was ein Zug über das Ablaufblatt malt</translation>
+    </message>
+    <message>
       <source>worst first</source>
       <translation>schlechteste zuerst</translation>
     </message>
@@ -452,12 +568,124 @@
       <translation>Tempo</translation>
     </message>
     <message>
-      <source>drag paints</source>
-      <translation>Ziehen malt</translation>
-    </message>
-    <message>
       <source>frame {n} of {last}   {s:.2f} s</source>
       <translation>Bild {n} von {last}   {s:.2f} s</translation>
+    </message>
+    <message>
+      <source>paint {state}</source>
+      <translation>{state} malen</translation>
+    </message>
+    <message>
+      <source>Off the object's mask.</source>
+      <translation>Außerhalb der Maske des Objekts.</translation>
+    </message>
+    <message>
+      <source>Less than 8 px from another point.</source>
+      <translation>Weniger als 8 px von einem anderen Punkt.</translation>
+    </message>
+    <message>
+      <source>Nothing to hold on to: flat.</source>
+      <translation>Kein Halt: einfarbig.</translation>
+    </message>
+    <message>
+      <source>Only an edge: it slides along.</source>
+      <translation>Nur eine Kante: Der Punkt gleitet daran entlang.</translation>
+    </message>
+    <message>
+      <source>left eye</source>
+      <translation>linkes Auge</translation>
+    </message>
+    <message>
+      <source>right eye</source>
+      <translation>rechtes Auge</translation>
+    </message>
+    <message>
+      <source>nose</source>
+      <translation>Nase</translation>
+    </message>
+    <message>
+      <source>front paw</source>
+      <translation>Vorderpfote</translation>
+    </message>
+    <message>
+      <source>tail</source>
+      <translation>Schwanz</translation>
+    </message>
+    <message>
+      <source>head</source>
+      <translation>Kopf</translation>
+    </message>
+    <message>
+      <source>left hand</source>
+      <translation>linke Hand</translation>
+    </message>
+    <message>
+      <source>right hand</source>
+      <translation>rechte Hand</translation>
+    </message>
+    <message>
+      <source>left foot</source>
+      <translation>linker Fuß</translation>
+    </message>
+    <message>
+      <source>right foot</source>
+      <translation>rechter Fuß</translation>
+    </message>
+    <message>
+      <source>eye</source>
+      <translation>Auge</translation>
+    </message>
+    <message>
+      <source>mouth</source>
+      <translation>Maul</translation>
+    </message>
+    <message>
+      <source>back fin</source>
+      <translation>Rückenflosse</translation>
+    </message>
+    <message>
+      <source>belly fin</source>
+      <translation>Bauchflosse</translation>
+    </message>
+    <message>
+      <source>front left</source>
+      <translation>vorn links</translation>
+    </message>
+    <message>
+      <source>front right</source>
+      <translation>vorn rechts</translation>
+    </message>
+    <message>
+      <source>rear left</source>
+      <translation>hinten links</translation>
+    </message>
+    <message>
+      <source>rear right</source>
+      <translation>hinten rechts</translation>
+    </message>
+    <message>
+      <source>roof</source>
+      <translation>Dach</translation>
+    </message>
+    <message>
+      <source>corner 1</source>
+      <translation>Ecke 1</translation>
+    </message>
+    <message>
+      <source>corner 2</source>
+      <translation>Ecke 2</translation>
+    </message>
+    <message>
+      <source>corner 3</source>
+      <translation>Ecke 3</translation>
+    </message>
+    <message>
+      <source>corner 4</source>
+      <translation>Ecke 4</translation>
+    </message>
+    <message>
+      <source>centre mark</source>
+      <translation>Marke in der Mitte</translation>
     </message>
     <message>
       <source>Template of point names</source>
@@ -564,10 +792,6 @@
       <translation>angenommen</translation>
     </message>
     <message>
-      <source>uncertain</source>
-      <translation>unsicher</translation>
-    </message>
-    <message>
       <source>snapped</source>
       <translation>eingerastet</translation>
     </message>
@@ -632,6 +856,14 @@
       <translation>ihren Annotator</translation>
     </message>
     <message>
+      <source>The optimisation ended without a scene.</source>
+      <translation>Die Optimierung endete ohne Szene.</translation>
+    </message>
+    <message>
+      <source>The optimisation could not be started.</source>
+      <translation>Die Optimierung ließ sich nicht starten.</translation>
+    </message>
+    <message>
       <source>Seed tracks</source>
       <translation>Spuren vorschlagen</translation>
     </message>
@@ -644,12 +876,104 @@
       <translation>Vorschlagen</translation>
     </message>
     <message>
+      <source>or a scene of this clip that exists</source>
+      <translation>oder eine vorhandene Szene dieses Clips</translation>
+    </message>
+    <message>
+      <source>Time</source>
+      <translation>Zeit</translation>
+    </message>
+    <message>
+      <source>Scene</source>
+      <translation>Szene</translation>
+    </message>
+    <message>
+      <source>folder of CoTracker's source</source>
+      <translation>Ordner mit dem Quelltext von CoTracker</translation>
+    </message>
+    <message>
+      <source>its weights (.pth)</source>
+      <translation>seine Gewichte (.pth)</translation>
+    </message>
+    <message>
+      <source>I have read its licence, and this use is not commercial</source>
+      <translation>Ich habe die Lizenz gelesen, und diese Nutzung ist nicht kommerziell</translation>
+    </message>
+    <message>
+      <source>Source</source>
+      <translation>Quelltext</translation>
+    </message>
+    <message>
+      <source>Weights</source>
+      <translation>Gewichte</translation>
+    </message>
+    <message>
+      <source>npz file</source>
+      <translation>npz-Datei</translation>
+    </message>
+    <message>
+      <source>File</source>
+      <translation>Datei</translation>
+    </message>
+    <message>
+      <source>Optimising. You can close this to cancel.</source>
+      <translation>Die Optimierung läuft. Schließen bricht ab.</translation>
+    </message>
+    <message>
+      <source>Following the points through the scene …</source>
+      <translation>Die Punkte werden durch die Szene verfolgt …</translation>
+    </message>
+    <message>
       <source>all objects</source>
       <translation>alle Objekte</translation>
     </message>
     <message>
       <source>the active object only</source>
       <translation>nur das aktive Objekt</translation>
+    </message>
+    <message>
+      <source>Optical (built in)</source>
+      <translation>Optisch (eingebaut)</translation>
+    </message>
+    <message>
+      <source>Follows the points inside their masks by flow and matching, from both ends between your keys.</source>
+      <translation>Verfolgt die Punkte in ihren Masken durch Fluss und Vergleich, zwischen Ihren Schlüsseln von beiden Enden her.</translation>
+    </message>
+    <message>
+      <source>Solve from scene</source>
+      <translation>Aus der Szene lösen</translation>
+    </message>
+    <message>
+      <source>Optimises a 4D scene of this clip and takes its tracks, which go on behind what hides them.</source>
+      <translation>Optimiert eine 4D-Szene dieses Clips und nimmt deren Spuren, die hinter Verdeckungen weitergehen.</translation>
+    </message>
+    <message>
+      <source>CoTracker (yours)</source>
+      <translation>CoTracker (Ihrer)</translation>
+    </message>
+    <message>
+      <source>A checkout and weights that you have. CC BY-NC 4.0: no commercial use. It runs in a process of its own.</source>
+      <translation>Quelltext und Gewichte, die Sie haben. CC BY-NC 4.0: keine kommerzielle Nutzung. Läuft in einem eigenen Prozess.</translation>
+    </message>
+    <message>
+      <source>From a file</source>
+      <translation>Aus einer Datei</translation>
+    </message>
+    <message>
+      <source>Tracks of this clip that somebody made before: TAP-Vid, CoTracker or ours (npz).</source>
+      <translation>Spuren dieses Clips, die es schon gibt: TAP-Vid, CoTracker oder unsere (npz).</translation>
+    </message>
+    <message>
+      <source>CoTracker's licence has to be agreed to first.</source>
+      <translation>Der Lizenz von CoTracker muss zuerst zugestimmt werden.</translation>
+    </message>
+    <message>
+      <source>Nothing was seeded; the line below the frame says why.</source>
+      <translation>Es wurde nichts gesetzt; die Zeile unter dem Bild sagt, warum.</translation>
+    </message>
+    <message>
+      <source>{n} min of optimising, ready in about {m:.1f} min</source>
+      <translation>{n} min optimieren, fertig in etwa {m:.1f} min</translation>
     </message>
     <message>
       <source>Undone: {title}</source>
@@ -664,12 +988,164 @@
       <translation>Nichts mehr zurückzunehmen oder zu wiederholen.</translation>
     </message>
     <message>
+      <source>Accept, go on</source>
+      <translation>Bestätigen</translation>
+    </message>
+    <message>
+      <source>Next doubt</source>
+      <translation>Nächster Zweifel</translation>
+    </message>
+    <message>
+      <source>Middle of gap</source>
+      <translation>Mitte der Lücke</translation>
+    </message>
+    <message>
+      <source>Loop</source>
+      <translation>Schleife</translation>
+    </message>
+    <message>
+      <source>Out of view</source>
+      <translation>Außerhalb</translation>
+    </message>
+    <message>
+      <source>Key</source>
+      <translation>Schlüssel</translation>
+    </message>
+    <message>
+      <source>Snap</source>
+      <translation>Einrasten</translation>
+    </message>
+    <message>
+      <source>Delete key</source>
+      <translation>Schlüssel weg</translation>
+    </message>
+    <message>
+      <source>Solve</source>
+      <translation>Lösen</translation>
+    </message>
+    <message>
+      <source>Track on</source>
+      <translation>Vorwärts</translation>
+    </message>
+    <message>
+      <source>Track back</source>
+      <translation>Rückwärts</translation>
+    </message>
+    <message>
+      <source>Fill mode</source>
+      <translation>Füllart</translation>
+    </message>
+    <message>
+      <source>Seed…</source>
+      <translation>Setzen…</translation>
+    </message>
+    <message>
+      <source>Lock</source>
+      <translation>Sperren</translation>
+    </message>
+    <message>
+      <source>Delete track</source>
+      <translation>Spur löschen</translation>
+    </message>
+    <message>
+      <source>Fit</source>
+      <translation>Einpassen</translation>
+    </message>
+    <message>
+      <source>1:1</source>
+      <translation>1:1</translation>
+    </message>
+    <message>
+      <source>Follow</source>
+      <translation>Folgen</translation>
+    </message>
+    <message>
+      <source>Loupe</source>
+      <translation>Lupe</translation>
+    </message>
+    <message>
+      <source>Masks</source>
+      <translation>Masken</translation>
+    </message>
+    <message>
+      <source>Trails</source>
+      <translation>Schweife</translation>
+    </message>
+    <message>
+      <source>Strip</source>
+      <translation>Streifen</translation>
+    </message>
+    <message>
+      <source>Needs a fix</source>
+      <translation>Zurückgeben</translation>
+    </message>
+    <message>
+      <source>Compare…</source>
+      <translation>Vergleichen…</translation>
+    </message>
+    <message>
+      <source>Log…</source>
+      <translation>Protokoll…</translation>
+    </message>
+    <message>
+      <source>Export…</source>
+      <translation>Exportieren…</translation>
+    </message>
+    <message>
+      <source>Import…</source>
+      <translation>Importieren…</translation>
+    </message>
+    <message>
+      <source>Name…</source>
+      <translation>Benennen…</translation>
+    </message>
+    <message>
+      <source>States</source>
+      <translation>Zustände</translation>
+    </message>
+    <message>
+      <source>Look</source>
+      <translation>Ansicht</translation>
+    </message>
+    <message>
       <source>Choose at least one object.</source>
       <translation>Wählen Sie mindestens ein Objekt.</translation>
     </message>
     <message>
       <source>Give every chosen object a name.</source>
       <translation>Geben Sie jedem gewählten Objekt einen Namen.</translation>
+    </message>
+    <message>
+      <source>Objects</source>
+      <translation>Objekte</translation>
+    </message>
+    <message>
+      <source>Choose the moving objects to annotate, and say why the others are left out.</source>
+      <translation>Wählen Sie die bewegten Objekte, und sagen Sie, warum die anderen wegbleiben.</translation>
+    </message>
+    <message>
+      <source>Points and seed</source>
+      <translation>Punkte und Vorschlag</translation>
+    </message>
+    <message>
+      <source>Place the key points of every object on its first frame, then seed the tracks.</source>
+      <translation>Setzen Sie die Punkte jedes Objekts in seinem ersten Bild, dann die Spuren.</translation>
+    </message>
+    <message>
+      <source>Refine</source>
+      <translation>Verfeinern</translation>
+    </message>
+    <message>
+      <source>Step through the clip with Enter; put right what is wrong; N goes to the next doubt.</source>
+      <translation>Gehen Sie mit Enter durch den Clip, und berichtigen Sie, was falsch ist; N geht zum nächsten Zweifel.</translation>
+    </message>
+    <message>
+      <source>Review</source>
+      <translation>Prüfung</translation>
+    </message>
+    <message>
+      <source>Watch every track; approve it, or return it with a reason.</source>
+      <translation>Sehen Sie jede Spur an; geben Sie sie frei oder mit einem Grund zurück.</translation>
     </message>
     <message>
       <source>{n} candidates are neither chosen nor rejected.</source>
@@ -696,12 +1172,100 @@
       <translation>{n} Spuren warten auf eine Entscheidung.</translation>
     </message>
     <message>
+      <source>History</source>
+      <translation>Verlauf</translation>
+    </message>
+    <message>
+      <source>Place</source>
+      <translation>Setzen</translation>
+    </message>
+    <message>
+      <source>Step</source>
+      <translation>Schritt</translation>
+    </message>
+    <message>
+      <source>Point</source>
+      <translation>Punkt</translation>
+    </message>
+    <message>
+      <source>Track</source>
+      <translation>Spur</translation>
+    </message>
+    <message>
+      <source>Decide</source>
+      <translation>Entscheiden</translation>
+    </message>
+    <message>
+      <source>Together</source>
+      <translation>Gemeinsam</translation>
+    </message>
+    <message>
       <source>Stabilised strip of the active point</source>
       <translation>Stabilisierter Streifen des aktiven Punkts</translation>
     </message>
     <message>
       <source>The active point has no track yet.</source>
       <translation>Der aktive Punkt hat noch keine Spur.</translation>
+    </message>
+    <message>
+      <source>Four steps</source>
+      <translation>Vier Schritte</translation>
+    </message>
+    <message>
+      <source>Objects, points, refining, review. Each says what it still lacks. You can go back at any time: Alt+1 to Alt+4.</source>
+      <translation>Objekte, Punkte, Verfeinern, Prüfen. Jeder sagt, was noch fehlt. Sie können jederzeit zurück: Alt+1 bis Alt+4.</translation>
+    </message>
+    <message>
+      <source>Every mask is a candidate, with size, motion and how often it is hidden. Select a row and press Choose, or leave it out with a reason.</source>
+      <translation>Jede Maske ist ein Kandidat, mit Größe, Bewegung und wie oft sie verdeckt ist. Wählen Sie eine Zeile und drücken Sie Wählen, oder lassen Sie sie mit einem Grund weg.</translation>
+    </message>
+    <message>
+      <source>More objects</source>
+      <translation>Weitere Objekte</translation>
+    </message>
+    <message>
+      <source>No mask? Draw a box around the object, or click and scribble on it, then Cut out. It is followed through the clip.</source>
+      <translation>Keine Maske? Ziehen Sie einen Kasten um das Objekt, oder klicken und kritzeln Sie darauf, dann Ausschneiden. Es wird durch den Clip verfolgt.</translation>
+    </message>
+    <message>
+      <source>Points</source>
+      <translation>Punkte</translation>
+    </message>
+    <message>
+      <source>Click five points on each object; the next one is chosen for you. Hold Z for the loupe, Ctrl and an arrow nudge by a quarter of a pixel.</source>
+      <translation>Klicken Sie fünf Punkte auf jedem Objekt; der nächste wird von selbst gewählt. Z halten zeigt die Lupe, Strg und ein Pfeil rücken um ein Viertelpixel.</translation>
+    </message>
+    <message>
+      <source>A good place</source>
+      <translation>Eine gute Stelle</translation>
+    </message>
+    <message>
+      <source>A corner can be followed, an edge slides, a flat place is lost. The bar shows it for the place under the mouse.</source>
+      <translation>Eine Ecke lässt sich verfolgen, eine Kante gleitet, eine glatte Stelle geht verloren. Der Balken zeigt es für die Stelle unter der Maus.</translation>
+    </message>
+    <message>
+      <source>A tracker proposes the rest. It never overwrites what you placed.</source>
+      <translation>Ein Verfolger schlägt den Rest vor. Er überschreibt nie, was Sie gesetzt haben.</translation>
+    </message>
+    <message>
+      <source>Fill: visible. Hatch: occluded. Diamond: your key. Red: doubtful. Click to go there, drag to paint a state.</source>
+      <translation>Fläche: sichtbar. Schraffur: verdeckt. Raute: Ihr Schlüssel. Rot: zweifelhaft. Klicken geht dorthin, Ziehen malt einen Zustand.</translation>
+    </message>
+    <message>
+      <source>Enter accepts the points of a frame and goes on. Drag a point that is off: both segments beside it are solved again. Hold Q and step to paint occlusion.</source>
+      <translation>Enter bestätigt die Punkte eines Bildes und geht weiter. Ziehen Sie einen falschen Punkt: Beide Abschnitte daneben werden neu gelöst. Q halten und weitergehen malt Verdeckung.</translation>
+    </message>
+    <message>
+      <source>The queue</source>
+      <translation>Die Liste</translation>
+    </message>
+    <message>
+      <source>N goes to the next most suspicious spot, and says why it is suspicious.</source>
+      <translation>N geht zur nächsten verdächtigen Stelle und sagt, warum sie verdächtig ist.</translation>
+    </message>
+    <message>
+      <source>Somebody else approves each track, or returns it with a reason. Everything is stored as you work; Ctrl+Z takes back anything, even tomorrow.</source>
+      <translation>Jemand anders gibt jede Spur frei oder mit einem Grund zurück. Alles wird beim Arbeiten gespeichert; Strg+Z nimmt alles zurück, auch morgen.</translation>
     </message>
     <message>
       <source>End the tour</source>
@@ -764,10 +1328,6 @@
       <translation>Objekte und Punkte</translation>
     </message>
     <message>
-      <source>point</source>
-      <translation>Punkt</translation>
-    </message>
-    <message>
       <source>frame {n}</source>
       <translation>Bild {n}</translation>
     </message>
@@ -786,6 +1346,14 @@
     <message>
       <source>Seeding {n} tracks …</source>
       <translation>{n} Spuren werden vorgeschlagen …</translation>
+    </message>
+    <message>
+      <source>Place points first.</source>
+      <translation>Setzen Sie zuerst Punkte.</translation>
+    </message>
+    <message>
+      <source>Seeding by {name} …</source>
+      <translation>{name} setzt Spuren …</translation>
     </message>
     <message>
       <source>Place this point first.</source>
@@ -810,10 +1378,6 @@
     <message>
       <source>Unlock</source>
       <translation>Entsperren</translation>
-    </message>
-    <message>
-      <source>Lock</source>
-      <translation>Sperren</translation>
     </message>
     <message>
       <source>This segment is filled by: {mode}</source>
@@ -978,6 +1542,10 @@
     <message>
       <source>As the system</source>
       <translation>Wie das System</translation>
+    </message>
+    <message>
+      <source>Preparing the drawing kernels, once on this computer …</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>elevation {degrees:+.1f}°</source>
@@ -1292,10 +1860,6 @@
       <translation>Tiefe</translation>
     </message>
     <message>
-      <source>Objects</source>
-      <translation>Objekte</translation>
-    </message>
-    <message>
       <source>Motion to the next frame</source>
       <translation>Bewegung zum nächsten Bild</translation>
     </message>
@@ -1368,6 +1932,10 @@
       <translation>Beenden und verwerfen</translation>
     </message>
     <message>
+      <source>No scene yet. Start a run (F5), or open a scene file.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>Turn the view</source>
       <translation>Ansicht drehen</translation>
     </message>
@@ -1388,18 +1956,6 @@
       <translation>Objekt</translation>
     </message>
     <message>
-      <source>Tint…</source>
-      <translation>Färben…</translation>
-    </message>
-    <message>
-      <source>All</source>
-      <translation>Alle</translation>
-    </message>
-    <message>
-      <source>Edit this mask…</source>
-      <translation>Diese Maske bearbeiten…</translation>
-    </message>
-    <message>
       <source>Apart</source>
       <translation>Abstand</translation>
     </message>
@@ -1410,6 +1966,18 @@
     <message>
       <source>Tint an object</source>
       <translation>Objekt färben</translation>
+    </message>
+    <message>
+      <source>All</source>
+      <translation>Alle</translation>
+    </message>
+    <message>
+      <source>Tint…</source>
+      <translation>Färben…</translation>
+    </message>
+    <message>
+      <source>Edit this mask…</source>
+      <translation>Diese Maske bearbeiten…</translation>
     </message>
     <message>
       <source>A number of the run; a change takes effect at the next step</source>
@@ -1684,10 +2252,6 @@
       <translation>Bild (ab 1 gezählt)</translation>
     </message>
     <message>
-      <source>Loop</source>
-      <translation>Schleife</translation>
-    </message>
-    <message>
       <source>There and back</source>
       <translation>Hin und zurück</translation>
     </message>
@@ -1712,24 +2276,12 @@
       <translation>Trägt die Punkte der anderen Spuren durch die 4D-Szene, verdeckt oder nicht</translation>
     </message>
     <message>
-      <source>Scene</source>
-      <translation>Szene</translation>
-    </message>
-    <message>
       <source>predicted</source>
       <translation>vorhergesagt</translation>
     </message>
     <message>
-      <source>annotated</source>
-      <translation>annotiert</translation>
-    </message>
-    <message>
       <source>imported</source>
       <translation>importiert</translation>
-    </message>
-    <message>
-      <source>Import tracks</source>
-      <translation>Spuren importieren</translation>
     </message>
     <message>
       <source>Tracks</source>
@@ -1740,24 +2292,12 @@
       <translation>Herkunft</translation>
     </message>
     <message>
-      <source>Points</source>
-      <translation>Punkte</translation>
-    </message>
-    <message>
-      <source>Track</source>
-      <translation>Spur</translation>
-    </message>
-    <message>
       <source>Worst frame</source>
       <translation>Schlechtestes Bild</translation>
     </message>
     <message>
       <source>Distance</source>
       <translation>Abstand</translation>
-    </message>
-    <message>
-      <source>Import…</source>
-      <translation>Importieren…</translation>
     </message>
     <message>
       <source>Jump to worst</source>
@@ -1868,6 +2408,10 @@
       <translation>Oder legen Sie einen Ordner oder eine Datei irgendwo auf dem Fenster ab.  Strg+K findet jeden Befehl, F1 jede Taste.</translation>
     </message>
     <message>
+      <source>Opened lately</source>
+      <translation>Zuletzt geöffnet</translation>
+    </message>
+    <message>
       <source>Try it</source>
       <translation>Ausprobieren</translation>
     </message>
@@ -1890,10 +2434,6 @@
     <message>
       <source>A video, a scene (.h5), an annotation project (.genmojo) or a splat (.ply).</source>
       <translation>Ein Video, eine Szene (.h5), ein Annotationsprojekt (.genmojo) oder Glocken (.ply).</translation>
-    </message>
-    <message>
-      <source>Opened lately</source>
-      <translation>Zuletzt geöffnet</translation>
     </message>
     <message>
       <source>run, going on now</source>
@@ -1930,10 +2470,6 @@
     <message>
       <source>Opens a folder of images or a clip.</source>
       <translation>Öffnet einen Ordner mit Bildern oder einen Clip.</translation>
-    </message>
-    <message>
-      <source>File</source>
-      <translation>Datei</translation>
     </message>
     <message>
       <source>Opens a video, a scene, a project or a PLY.</source>
@@ -2158,10 +2694,6 @@
     <message>
       <source>Lets time run.</source>
       <translation>Lässt die Zeit laufen.</translation>
-    </message>
-    <message>
-      <source>Time</source>
-      <translation>Zeit</translation>
     </message>
     <message>
       <source>Next frame</source>
@@ -2520,10 +3052,6 @@
       <translation>Von etwas verdeckt; halten und weitergehen malt. Auch Rechtsklick.</translation>
     </message>
     <message>
-      <source>Out of view</source>
-      <translation>Außerhalb</translation>
-    </message>
-    <message>
       <source>Outside the picture; hold and step to paint.</source>
       <translation>Außerhalb des Bilds; halten und weitergehen malt.</translation>
     </message>
@@ -2756,10 +3284,6 @@
       <translation>Jetzt, voriger Schlüssel, erstes Bild und Differenz.</translation>
     </message>
     <message>
-      <source>Loupe</source>
-      <translation>Lupe</translation>
-    </message>
-    <message>
       <source>Keeps the loupe open.</source>
       <translation>Lässt die Lupe offen.</translation>
     </message>
@@ -2836,10 +3360,6 @@
       <translation>Gibt die Spur mit einem Grund an ihren Annotator zurück.</translation>
     </message>
     <message>
-      <source>Review</source>
-      <translation>Prüfung</translation>
-    </message>
-    <message>
       <source>Fixed</source>
       <translation>Behoben</translation>
     </message>
@@ -2908,20 +3428,8 @@
       <translation>Schritt 1 von 4.</translation>
     </message>
     <message>
-      <source>Step</source>
-      <translation>Schritt</translation>
-    </message>
-    <message>
-      <source>Points and seed</source>
-      <translation>Punkte und Vorschlag</translation>
-    </message>
-    <message>
       <source>Step 2 of 4.</source>
       <translation>Schritt 2 von 4.</translation>
-    </message>
-    <message>
-      <source>Refine</source>
-      <translation>Verfeinern</translation>
     </message>
     <message>
       <source>Step 3 of 4.</source>
