@@ -14,7 +14,7 @@ class LossWeights:
     """Weights of the joint losses, in units where the RGB term's is 1 (METHOD.md section 5, divided by 1e4)."""
 
     rgb: float = 1.0  # L1 + SSIM over the frame, foreground and background balanced
-    ssim: float = 0.2  # share of SSIM in the RGB term
+    ssim: float = 0.2  # 1 - SSIM of colour, foreground and background balanced
     alpha: float = 0.3  # coverage against the union of masks, balanced
     labels: float = 0.1  # instance composition against the masks
     depth: float = 0.2  # relative depth error inside the masks
@@ -27,7 +27,7 @@ class LossWeights:
     delta_scale: float = 0.1  # |change of log scale|
     delta_color: float = 0.5  # |change of colour|: motion must not be explained by colour
     smooth: float = 0.2  # second difference of motion in time
-    unseen: float = 2.0  # mean squared gap to what the prior expects of unseen views
+    unseen: float = 4.0  # mean squared gap to what the prior expects of unseen views
 
 
 @dataclass(frozen=True)
