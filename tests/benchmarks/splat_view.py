@@ -1,4 +1,4 @@
-"""Milliseconds of a frame of the 3D view: `python tests/benchmarks/splat_view.py [--size 960x540] [--scene FILE]`.
+"""Milliseconds of a frame of the 3D view: `python -m tests.benchmarks.splat_view [--size 960x540] [--scene FILE]`.
 
 GL on whatever driver EGL gives (the name is printed) and the processor's kernels, at 10 000, 50 000 and 150 000
 Gaussians: a full frame, and the frame that is drawn while moving (as chosen by `quality.Detail`). Medians of several
