@@ -11,6 +11,7 @@ from genmojo_core.clip import folders
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.estimate.masks import Prompt
+from genmojo_core.trackers.solver import SHORT_SIDE
 from genmojo_core.tracks.annotation import ObjectInfo
 from genmojo_core.tracks.edit_tracks import put_objects
 from genmojo_studio import notify
@@ -20,8 +21,6 @@ from genmojo_studio.annotate.canvas import Tool
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.background import Tasks
 from genmojo_studio.translate import tr
-
-SHORT_SIDE = 540  # pixels at which masks are cut and tracks are solved
 
 
 class Work(QObject):
@@ -116,7 +115,7 @@ class Work(QObject):
             self._clip_read(state.clip)
             return
         self.busy_changed.emit(tr("Reading the clip …"))
-        self.tasks.run(lambda: folders.read(path, short_side=SHORT_SIDE), self._clip_read, self._failed)
+        self.tasks.run(lambda: folders.read(path, short_side=SHORT_SIDE, ignore=folders.CHANNELS), self._clip_read, self._failed)
 
     def _clip_read(self, clip: Clip) -> None:
         if self._closed:
