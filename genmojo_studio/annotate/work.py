@@ -115,7 +115,11 @@ class Work(QObject):
             self._clip_read(state.clip)
             return
         self.busy_changed.emit(tr("Reading the clip …"))
-        self.tasks.run(lambda: folders.read(path, short_side=SHORT_SIDE, ignore=folders.CHANNELS), self._clip_read, self._failed)
+
+        def read() -> Clip:
+            return folders.read(path, short_side=SHORT_SIDE, ignore=folders.CHANNELS)
+
+        self.tasks.run(read, self._clip_read, self._failed)
 
     def _clip_read(self, clip: Clip) -> None:
         if self._closed:
