@@ -42,15 +42,12 @@ def bind(w: WatchWorkspace) -> None:
 def open_run(w: WatchWorkspace, folder: Path) -> None:
     """Attaches to a run that lives; opens the scene of one that has ended; resumes one that was cut short."""
     if runs.live_run(folder) is not None:
-        w.curves.show_log(w.control.log)
         w.control.attach(folder)
-        w.curves.show_log(w.control.log)
         w.run_tabs.setCurrentIndex(1)
     elif (folder / runs.SCENE).exists():
         w.session.open_scene(folder / runs.SCENE)
     elif (folder / "checkpoint.json").exists():
         w.control.resume(folder)
-        w.curves.show_log(w.control.log)
         w.run_tabs.setCurrentIndex(1)
     else:
         notify.tell(
@@ -113,7 +110,6 @@ def _start(w: WatchWorkspace) -> None:
         return
     w.session.clear()
     w.control.start(replace(request, look_at=w.state.frame))
-    w.curves.show_log(w.control.log)
     w.run_tabs.setCurrentIndex(1)
     w.docks["curves"].raise_()
 
@@ -175,4 +171,4 @@ def _in(w: WatchWorkspace, *states: str) -> Callable[[], bool]:
 
 
 def _has_scene(w: WatchWorkspace, file_only: bool) -> bool:
-    return w.take_away.scene_file is not None if file_only else w.session.snapshot is not None
+    return w.take_away.ready if file_only else w.session.snapshot is not None

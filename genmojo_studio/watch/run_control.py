@@ -45,6 +45,8 @@ class RunControl(QObject):
         self.view_cost = 0.0
         self.parameters: dict[str, float] = {}  # as they were changed while the run goes on
         self._rule = StopRule()
+        self._wanted: list[tuple[Path, Callable[[Path], None]]] = []  # scenes asked for while the run goes on
+        self._view_shown = True
         self.client.state_changed.connect(self._state)
         self.client.event_received.connect(self._event)
         self.client.preview_ready.connect(self._preview)
@@ -97,6 +99,19 @@ class RunControl(QObject):
         if self.live:
             self.client.look(frame)
 
+    def show_view(self, shown: bool) -> None:
+        """While nobody sees the view, the worker makes no previews."""
+        self._view_shown = shown
+        if self.live:
+            self.client.set_view("live" if shown else "off")
+
+    def scene_so_far(self, then: Callable[[Path], None]) -> None:
+        """Writes the scene as it stands into the run's folder and calls `then` with its path; the run goes on."""
+        if self.run_dir is not None:
+            path = self.run_dir / f"so-far-{len(self.log.step)}.h5"
+            self._wanted.append((path, then))
+            self._ask(lambda: self.client.write_scene(str(path)))
+
     def set_parameter(self, name: str, value: float) -> None:
         """Changes a number of the run from its next step on."""
         self._ask(lambda: self.client.set_parameter(name, value))
@@ -123,6 +138,7 @@ class RunControl(QObject):
 
     def _begin(self) -> None:
         self.log = RunLog()
+        self._wanted = []
         self.parameters = {}
         self._rule = StopRule()
         self.phase = ""
@@ -135,7 +151,10 @@ class RunControl(QObject):
             self.failed.emit(error)
 
     def _state(self, state: str) -> None:
+        began = state == "running" and self.state in ("starting", "ready")
         self.state = state
+        if began and not self._view_shown:
+            self.show_view(False)
         self.state_changed.emit()
         scene = self.scene_path
         if state == "done" and scene is not None and scene.exists():
@@ -144,6 +163,10 @@ class RunControl(QObject):
     def _event(self, event: dict[str, Any]) -> None:
         points = len(self.log.accuracy)
         self.log.add(event)
+        if event.get("event") == "SceneWritten":
+            for path, then in [wanted for wanted in self._wanted if str(wanted[0]) == event.get("path")]:
+                self._wanted.remove((path, then))
+                then(path)
         if event.get("event") == "ParameterChanged":
             self.parameters[str(event["name"])] = float(event["new"])
         self.log_grew.emit()

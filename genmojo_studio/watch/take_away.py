@@ -24,6 +24,7 @@ from genmojo_studio.view3d.cpu_view import CpuView
 from genmojo_studio.watch.film_dialogs import PictureDialog, TurntableDialog
 from genmojo_studio.watch.live_view import LiveView
 from genmojo_studio.watch.path_editor import PathEditor
+from genmojo_studio.watch.run_control import RunControl
 from genmojo_studio.watch.session import Session
 from genmojo_studio.worker.jobs import ExportJob
 
@@ -31,8 +32,9 @@ from genmojo_studio.worker.jobs import ExportJob
 class TakeAway(QObject):
     """The entries of the menu Take away. `last` is what the newest export wrote, None while it runs."""
 
-    def __init__(self, state: AppState, session: Session, view: LiveView, parent: QWidget) -> None:
+    def __init__(self, state: AppState, session: Session, view: LiveView, control: RunControl, parent: QWidget) -> None:
         super().__init__(parent)
+        self._control = control
         self._state = state
         self._session = session
         self._view = view
@@ -48,23 +50,33 @@ class TakeAway(QObject):
         path = self._session.path
         return path if path is not None and path.is_file() and path.suffix.lower() in (".h5", ".hdf5") else None
 
+    @property
+    def ready(self) -> bool:
+        """True if there is a scene file, or a run that can write one."""
+        return self.scene_file is not None or (self._control.live and self._session.snapshot is not None)
+
+    @property
+    def _source(self) -> str:
+        """The scene file; "" for the run that goes on."""
+        return "" if self.scene_file is None else str(self.scene_file)
+
     def save_hdf5(self) -> None:
         """A checked copy of the scene."""
         output = self._ask(tr("Save the scene"), "scene.h5", "HDF5 (*.h5)")
         if output:
-            self.export(ExportRequest("hdf5", str(self.scene_file), output))
+            self.export(ExportRequest("hdf5", self._source, output))
 
     def save_ply(self) -> None:
         """The frame on show as a 3DGS PLY."""
         output = self._ask(tr("Save this frame"), f"frame-{self._state.frame + 1:05d}.ply", "PLY (*.ply)")
         if output:
-            self.export(ExportRequest("ply", str(self.scene_file), output, frame=self._state.frame, extra=True))
+            self.export(ExportRequest("ply", self._source, output, frame=self._state.frame, extra=True))
 
     def save_ply_sequence(self) -> None:
         """Every frame as a PLY in a folder."""
         folder = QFileDialog.getExistingDirectory(self._window, tr("Folder for the PLY files"))
         if folder:
-            self.export(ExportRequest("ply-sequence", str(self.scene_file), folder, extra=True))
+            self.export(ExportRequest("ply-sequence", self._source, folder, extra=True))
 
     def turntable(self) -> None:
         """The scene turned once round, as a video or pictures."""
@@ -72,7 +84,7 @@ class TakeAway(QObject):
         if dialog.exec():
             output = self._ask_film(dialog.transparent.isChecked(), "turntable")
             if output:
-                self.export(dialog.request(str(self.scene_file), output, self._state.frame))
+                self.export(dialog.request(self._source, output, self._state.frame))
 
     def camera_path(self) -> None:
         """The editor of camera paths, which stays open beside the window."""
@@ -116,7 +128,10 @@ class TakeAway(QObject):
             self._later(lambda: write(pixels))
 
     def export(self, request: ExportRequest) -> None:
-        """Runs an export in its own process, with progress and cancel."""
+        """Runs an export in its own process, with progress and cancel. Of a run that goes on, as it stands now."""
+        if not request.scene:
+            self._control.scene_so_far(lambda path: self.export(replace(request, scene=str(path))))
+            return
         job = ExportJob(self)
         dialog = QProgressDialog(tr("Writing {name} …").format(name=Path(request.output).name), tr("Cancel"), 0, 1000)
         dialog.setParent(self._window, Qt.WindowType.Dialog)
@@ -156,16 +171,14 @@ class TakeAway(QObject):
             notify.tell(GenmojoError("io", sentence.rstrip(".")), self._window)
 
     def _render_path(self, path: dict[str, Any], mode: str, short_side: int) -> None:
-        if self.scene_file is None:
+        if not self.ready:
             QMessageBox.information(
                 self._window, "GenMOJO Studio", tr("Save the scene first; videos are made from its file.")
             )
             return
         output = self._ask_film(False, "camera-path")
         if output:
-            self.export(
-                ExportRequest("path", str(self.scene_file), output, path=path, mode=mode, short_side=short_side)
-            )
+            self.export(ExportRequest("path", self._source, output, path=path, mode=mode, short_side=short_side))
 
     def _ask(self, title: str, name: str, kinds: str) -> str:
         folder = self.scene_file.parent if self.scene_file is not None else Path.home()

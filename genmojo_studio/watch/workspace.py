@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from PySide6.QtCore import QByteArray, Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent
+from PySide6.QtGui import QCloseEvent, QHideEvent, QShowEvent
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabWidget, QVBoxLayout, QWidget
 
 from genmojo_studio import notify
@@ -67,7 +67,7 @@ class WatchWorkspace(QMainWindow):
         self.curves = Curves(state)
         self.picking = PickingPanel(state)
         self.tracks = TracksPanel(state)
-        self.take_away = TakeAway(state, self.session, self.view, self)
+        self.take_away = TakeAway(state, self.session, self.view, self.control, self)
         self._arrange()
         self._connect()
         commands.bind(self)
@@ -118,6 +118,16 @@ class WatchWorkspace(QMainWindow):
         self.view.close()
         self.tasks.close()
         event.accept()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Somebody looks again."""
+        super().showEvent(event)
+        self.control.show_view(True)
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Minimised, or the other workspace is on show."""
+        super().hideEvent(event)
+        self.control.show_view(False)
 
     def _arrange(self) -> None:
         middle = QWidget()
@@ -250,7 +260,7 @@ class WatchWorkspace(QMainWindow):
             self.state.set(selected_object=found.main.object_id)
 
     def _log_grew(self) -> None:
-        self.curves.changed()
+        self.curves.show_log(self.control.log)
 
     def _run_ended(self, scene: Path) -> None:
         self.session.open_scene(scene)
