@@ -32,6 +32,7 @@ from genmojo_core.events import (
     Warned,
 )
 from genmojo_core.optimise import checkpoint, density, parameters
+from genmojo_core.optimise.annotated import with_annotated
 from genmojo_core.optimise.bake import Provenance, bake
 from genmojo_core.optimise.deadline import Deadline
 from genmojo_core.optimise.first_poses import Moves, first_poses, usable_motion
@@ -160,6 +161,7 @@ class Run:
         motions, doubts = usable_motion(self.clip, motions)
         for message in doubts:
             yield Warned(*self.clock.now(), "motion_not_found", message)
+        motions = with_annotated(self.clip, motions)
         lifted = lift(self.clip, self.plan, self.config, motions)
         for message in lifted.warnings:
             yield Warned(*self.clock.now(), "object_not_visible", message)
@@ -203,7 +205,7 @@ class Run:
         self.unseen = UnseenViews(prior, self.clip, self.config, lifted, motions, self.objective.splat)
         self.objective.refresh_neighbours()
         for message in self.unseen.notes():
-            yield Warned(*self.clock.now(), "prior_off", message)
+            yield Warned(*self.clock.now(), "prior", message)
 
     def _start(self) -> None:
         """Optimiser and guard, and the checkpoint if there is one to resume."""

@@ -1,0 +1,74 @@
+"""Tracks that people annotated, as supervision beside the motion's own tracks: the loop between tool and method."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from genmojo_core.clip.clip import Clip
+from genmojo_core.optimise.motion import ObjectMotion, improved_depth
+from genmojo_core.tracks.model import VISIBLE, PointTracks
+
+_REACH = 1  # held px around a point in which its depth may be read
+
+
+def with_annotated(clip: Clip, motions: Sequence[ObjectMotion]) -> list[ObjectMotion]:
+    """The motions with the clip's given tracks added to their own: sure where seen, silent elsewhere.
+
+    A track's place in space is read from the depth of the frame nearest the reference frame in which it is seen and
+    the object's pose is known; a track without such a frame is left out. Without given tracks nothing changes.
+    """
+    if clip.tracks is None or not clip.tracks.given or not len(clip.tracks.value.object):
+        return list(motions)
+    known = improved_depth(clip, motions)
+    tracks = clip.tracks.value.resized(*clip.size)
+    return [_added(known, tracks, motion, int(clip.object_ids[k])) for k, motion in enumerate(motions)]
+
+
+def _added(clip: Clip, tracks: PointTracks, motion: ObjectMotion, owner: int) -> ObjectMotion:
+    """One object's motion with its annotated tracks."""
+    rows, points = [], []
+    for row in np.flatnonzero(tracks.object == owner):
+        place = _in_space(clip, tracks, int(row), motion)
+        if place is not None:
+            rows.append(row)
+            points.append(place)
+    if not rows:
+        return motion
+    seen = tracks.state[rows] == VISIBLE
+    xy = np.where(seen[..., None], tracks.xy[rows], 0.0)
+    return replace(
+        motion, track_xyz=np.concatenate([motion.track_xyz, np.stack(points)]),
+        track_xy=np.concatenate([motion.track_xy, xy]),
+        track_conf=np.concatenate([motion.track_conf, seen.astype(np.float64)]),
+    )  # fmt: skip
+
+
+def _in_space(clip: Clip, tracks: PointTracks, row: int, motion: ObjectMotion) -> np.ndarray | None:  # (3,)
+    """World point on the object, as it is at the reference frame."""
+    frames = np.flatnonzero((tracks.state[row] == VISIBLE) & (motion.confidence > 0))
+    for t in sorted(frames.tolist(), key=lambda t: abs(t - motion.ref_frame)):
+        xy = tracks.xy[row, t].astype(np.float64)
+        z = _depth_at(clip, t, xy)
+        if z is None:
+            continue
+        view = clip.cameras.value.view(t)
+        camera = np.array([(xy[0] - view.cx) / view.fx * z, (xy[1] - view.cy) / view.fy * z, z, 1.0])
+        there = np.linalg.inv(motion.pose[t]) @ np.linalg.inv(view.world_to_camera) @ camera
+        return motion.bend.undone(t, there[None, :3])[0]
+    return None
+
+
+def _depth_at(clip: Clip, t: int, xy: np.ndarray) -> float | None:
+    """Median depth of the valid pixels around a place; None outside or without one."""
+    column, row = np.floor(xy).astype(int)
+    width, height = clip.size
+    if not (0 <= column < width and 0 <= row < height):
+        return None
+    window = np.s_[max(row - _REACH, 0) : row + _REACH + 1, max(column - _REACH, 0) : column + _REACH + 1]
+    valid = clip.depth.valid[t][window]
+    own = clip.masks.value[t][window] == clip.masks.value[t][row, column]
+    good = valid & own
+    return float(np.median(clip.depth.value[t][window][good])) if good.any() else None
