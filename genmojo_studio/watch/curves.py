@@ -71,12 +71,10 @@ class Curves(QWidget):
         self._dress()
 
     def show_log(self, log: RunLog) -> None:
-        """Draws another run; call `changed` when it has grown."""
-        self._log = log
-        self._restart()
-
-    def changed(self) -> None:
-        """The log has grown; the plot follows at its own pace."""
+        """Draws a run, or what has been added to it; the plot follows at its own pace."""
+        if log is not self._log:
+            self._log = log
+            self._restart()
         self._dirty = True
 
     def showEvent(self, event: QShowEvent) -> None:
