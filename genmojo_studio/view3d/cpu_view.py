@@ -41,14 +41,17 @@ class CpuView(QWidget):
         self._image: QImage | None = None
         self._pixels: np.ndarray | None = None  # keeps the image's memory
         self._newest: FrameRequest | None = None
+        self._asked: FrameRequest | None = None
         self._finished.connect(self._show, Qt.ConnectionType.QueuedConnection)
         self._drawer = Drawer(self._finished.emit, self.failed.emit, self.waiting.emit)
         self.destroyed.connect(self._drawer.stop)
 
     def show_frame(self, request: FrameRequest) -> None:
-        """Draw this soon; an older request that was not begun is forgotten."""
+        """Draw this soon, or as soon as the window is no longer minimised; older requests are forgotten."""
         self._newest = request
-        self._drawer.ask(request, self._device_size())
+        if not self.window().isMinimized():
+            self._asked = request
+            self._drawer.ask(request, self._device_size())
 
     def image(self, request: FrameRequest, view: View) -> np.ndarray:  # (H, W, 4) uint8
         """A picture of any size off screen, at full detail."""
@@ -60,6 +63,8 @@ class CpuView(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         """Show the newest finished picture, stretched where it was drawn with less detail."""
+        if self._newest is not None and self._newest is not self._asked:
+            self.show_frame(self._newest)  # it came while the window was minimised
         painter = QPainter(self)
         if self._image is None:
             painter.fillRect(self.rect(), _EMPTY)

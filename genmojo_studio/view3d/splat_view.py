@@ -50,9 +50,10 @@ class SplatView(QOpenGLWidget):
         self._order_ready.connect(self.update, Qt.ConnectionType.QueuedConnection)
 
     def show_frame(self, request: FrameRequest) -> None:
-        """Draw this soon; an older request that was not drawn yet is forgotten."""
+        """Draw this soon, or as soon as the window is no longer minimised; older requests are forgotten."""
         self._request = request
-        self.update()
+        if not self.window().isMinimized():
+            self.update()
 
     def image(self, request: FrameRequest, view: View) -> np.ndarray:  # (H, W, 4) uint8
         """A picture of any size off screen, at full detail. Raises GenmojoError where OpenGL failed."""

@@ -91,6 +91,8 @@ def _check_life(answer: dict, surface: str) -> None:
     assert answer["picks_after_gizmo"] == 1
     assert answer["time_changes_it"] < 40
     assert "black" not in answer
+    assert answer["drawn_while_minimised"] == 0
+    assert answer["after_minimised"] == 7.0
     assert answer["second"] > 100
     assert answer["second_after_first_closed"] > 100
     assert answer["left"] == []

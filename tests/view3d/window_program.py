@@ -130,6 +130,14 @@ def life(engine: str) -> dict:
         if shown(view).max() == 0 and mode != Mode.RESIDUAL:
             answer["black"] = str(mode)
     watched.after(lambda: view.set_look(Look(canonical=True)))
+    view.showMinimized()
+    QTest.qWait(200)
+    watched.reports.clear()
+    view.set_orbit(Orbit(azimuth=7.0))
+    QTest.qWait(400)
+    answer["drawn_while_minimised"] = len(watched.reports)
+    watched.after(view.showNormal)
+    answer["after_minimised"] = watched.reports[-1].request.orbit.azimuth
     second = Watched(SceneView(engine=engine))
     second.view.resize(200, 150)
     second.view.set_snapshot(snapshot)
