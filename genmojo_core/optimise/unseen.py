@@ -28,6 +28,7 @@ from genmojo_core.priors.prior import ViewOffsets, ViewPrior
 from genmojo_core.priors.references import LEAST_VISIBLE, PlacedReference, reference_of
 from genmojo_core.priors.sds import distil
 from genmojo_core.priors.solids import HALF_EXTENT
+from genmojo_core.priors.zero123 import Zero123Prior
 from genmojo_core.render.backend import Splat
 from genmojo_core.render.rasterizer import Splats
 from genmojo_core.scene import safemath
@@ -95,8 +96,11 @@ class UnseenViews:
                 self._complete(prior, one, motions[one.clip_indices[0]], lifted)
 
     def notes(self) -> list[str]:
-        """One sentence per object the prior does not speak for, or only in some frames."""
+        """What a large prior will need; a sentence per object it does not speak for, or only in some frames."""
         sentences = []
+        if isinstance(self.prior, Zero123Prior):
+            needed = self.prior.forecast_mb(self.config.prior_views)
+            sentences.append(f"the prior {self.prior.kind} is expected to need {needed:.0f} MiB")
         for one in self.subjects:
             if not one.references:
                 reason = "; ".join(dict.fromkeys(one.off.values()))
@@ -182,6 +186,7 @@ class UnseenViews:
     def _complete(self, prior: EmbeddedPrior, one: Subject, motion: Moves, lifted: Lifted) -> None:
         """Add Gaussians where the volume has surface that no frame shows and none contradicts."""
         gaussians = one.models[0].gaussians
+        self.first_free[one.models[0].id] = gaussians.next_uid
         room = self.config.gaussians_per_object - len(gaussians)
         count = min(room, int(POINT_SHARE * self.config.gaussians_per_object))
         if count < 1 or not one.references:
@@ -202,7 +207,6 @@ class UnseenViews:
         if len(rows) > count:
             rows = np.random.default_rng(self.config.seed).permutation(rows)[:count]
         if len(rows):
-            self.first_free[one.models[0].id] = gaussians.next_uid
             _add(gaussians, selected(points, rows), lifted.frames_of[lifted.rows[k]], self._light(one.home))
 
     def _light(self, t: int) -> Tensor | float:
