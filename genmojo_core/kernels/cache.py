@@ -24,7 +24,13 @@ from numba.core import types
 from genmojo_core.kernels.pieces import KernelCompiler, PieceCompiler
 
 PACKAGE = Path(__file__).resolve().parents[1]
-SOURCES = ("kernels", "render/cpu", "scene/planes_cpu", "render/rasterizer.py")  # all that ends up in kernels
+SOURCES = (
+    "kernels",
+    "render/cpu",
+    "scene/planes_cpu",
+    "scene/motion_cpu",
+    "render/rasterizer.py",
+)  # all that ends up in kernels
 
 _JIT: Any = numba.njit  # its stub does not know every option
 _OPTIONS = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}

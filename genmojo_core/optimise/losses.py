@@ -13,6 +13,7 @@ from torch import Tensor
 
 from genmojo_core.optimise.targets import FrameTargets
 from genmojo_core.render.rasterizer import Rendering
+from genmojo_core.render.ssim import ssim_map, whole_windows
 from genmojo_core.scene import safemath
 from genmojo_core.scene.scene4d import Layout
 
@@ -39,6 +40,13 @@ def color_loss(rendering: Rendering, target: FrameTargets, inside: Tensor, has_b
     if has_background:
         return balanced(error, inside, target.seen)
     return masked_mean(error, inside * target.seen)
+
+
+def similarity_loss(rendering: Rendering, target: FrameTargets, inside: Tensor) -> Tensor:
+    """1 - SSIM of colour, balanced; a window counts where all its pixels are seen."""
+    seen = target.seen[None] > 0
+    similar = ssim_map(rendering.features[None, ..., :3], target.rgb[None], seen)[0].mean(-1)
+    return balanced(1.0 - similar, inside, whole_windows(seen)[0].float())
 
 
 def coverage_loss(rendering: Rendering, layout: Layout, target: FrameTargets, inside: Tensor) -> Tensor:

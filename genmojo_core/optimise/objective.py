@@ -108,6 +108,8 @@ class Objective:
             "alpha": losses.coverage_loss(rendering, layout, target, inside),
             "depth": losses.depth_loss(rendering, layout, target),
         }
+        if self.weights.ssim > 0 and self.scene.background is not None:
+            terms["ssim"] = losses.similarity_loss(rendering, target, inside)
         if now:
             terms["alpha"] = terms["alpha"] + losses.miss_loss(rendering, layout, target, self._centres(t, now))
         if self.labels:

@@ -6,10 +6,12 @@ Positions are in object space, where the similarity to the world cancels out of 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import torch
 from torch import Tensor
 
+from genmojo_core.kernels.probe import kernels_work
 from genmojo_core.scene import safemath
 from genmojo_core.scene.deform import Deformation
 from genmojo_core.scene.scene4d import ObjectState
@@ -50,6 +52,17 @@ def rigidity(now: ObjectState, after: ObjectState, neighbours: Neighbours, rows:
     L_rigid = mean sqrt(w |(x_j - x_i)_t - R_t R_t'^T (x_j - x_i)_t'|^2), with the rotation that takes t' back to t
     (the released code uses its transpose). L_rot = mean sqrt(w |q_rel,j - q_rel,i|^2), q_rel = q_t q_t'^-1.
     """
+    pair = (now.local_means, after.local_means, now.local_quats, after.local_quats)
+    if all(p.dtype == torch.float32 and p.device.type == "cpu" for p in pair) and kernels_work():
+        rigid, turned = _Rigidity.apply(neighbours, rows, *pair).unbind()
+        return rigid, turned
+    return rigidity_torch(now, after, neighbours, rows)
+
+
+def rigidity_torch(
+    now: ObjectState, after: ObjectState, neighbours: Neighbours, rows: Tensor
+) -> tuple[Tensor, Tensor]:  # fmt: skip
+    """`rigidity` in plain torch, any device and dtype."""
     index, weight = neighbours.index[rows], neighbours.weight[rows]
     edges_now = now.local_means[index] - now.local_means[rows][:, None]
     edges_after = after.local_means[index] - after.local_means[rows][:, None]
@@ -68,3 +81,25 @@ def scale_terms(deformation: Deformation, neighbours: Neighbours, rows: Tensor) 
     index, weight = neighbours.index[rows], neighbours.weight[rows]
     local = weight * ((change[index] - change[rows][:, None]) ** 2).sum(-1)
     return safemath.safe_sqrt(local).mean(), change[rows].abs().mean()
+
+
+class _Rigidity(torch.autograd.Function):
+    """`rigidity` through the kernel: both terms in one walk over the edges."""
+
+    @staticmethod
+    def forward(ctx: Any, neighbours: Neighbours, rows: Tensor, *pair: Tensor) -> Tensor:
+        """(2,) both terms; keeps the arrays for backward."""
+        from genmojo_core.scene.motion_cpu.rigidity import Edges, Pair, rigid_terms
+
+        ctx.pair = Pair(*(p.detach().contiguous().numpy() for p in pair))
+        ctx.edges = Edges(*(t.contiguous().numpy() for t in (neighbours.index, neighbours.weight, rows)))
+        return torch.from_numpy(rigid_terms(ctx.pair, ctx.edges)).float()
+
+    @staticmethod
+    @torch.autograd.function.once_differentiable
+    def backward(ctx: Any, upstream: Tensor) -> tuple[Any, ...]:
+        """Gradients of the positions and quaternions at both times."""
+        from genmojo_core.scene.motion_cpu.rigidity import rigid_gradients
+
+        gradients = rigid_gradients(ctx.pair, ctx.edges, upstream.double().numpy())
+        return None, None, *(torch.from_numpy(g) for g in gradients)

@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable
 from typing import Protocol
 
+import numpy as np
 import torch
 from torch import Tensor
 
@@ -72,6 +73,7 @@ def _compile(report: Callable[[str], None] | None) -> None:
     from genmojo_core.kernels.cache import is_cold
     from genmojo_core.render import autograd
     from genmojo_core.render.ssim import ssim_map
+    from genmojo_core.scene.motion_cpu.rigidity import Edges, Pair, rigid_terms
     from genmojo_core.scene.plane_sampling import sample_planes, sample_time_planes
 
     if report is not None and is_cold():
@@ -83,3 +85,5 @@ def _compile(report: Callable[[str], None] | None) -> None:
     planes = torch.ones(3, 2, 2, 8, requires_grad=True)
     product = sample_planes(planes, places)[None] * sample_time_planes(planes, places, torch.zeros(1))
     product.sum().backward()
+    points, turns, index = np.zeros((1, 3), np.float32), np.zeros((1, 4), np.float32), np.zeros((1, 1), np.int64)
+    rigid_terms(Pair(points, points, turns, turns), Edges(index, points[:, :1].copy(), index[0]))

@@ -5,7 +5,7 @@ import pytest
 import torch
 
 from genmojo_core.conventions import axis_angle_matrix, matrix_to_quaternion
-from genmojo_core.optimise.regularise import nearest, rigidity, scale_terms
+from genmojo_core.optimise.regularise import nearest, rigidity, rigidity_torch, scale_terms
 from genmojo_core.scene import safemath
 from genmojo_core.scene.deform import Deformation
 from genmojo_core.scene.scene4d import ObjectState
@@ -43,6 +43,23 @@ def test_a_bend_costs_something_and_its_gradient_is_finite() -> None:
     move.backward()
     assert float(move.detach()) > 1e-2
     assert torch.isfinite(bent.grad).all()
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_kernel_and_its_gradients_equal_float64(seed: int) -> None:
+    generator = torch.Generator().manual_seed(seed)
+    means, quats = cloud()
+    near, rows = nearest(means, 7), torch.randperm(200, generator=generator)[:90]
+    moved = means + 0.1 * torch.randn(200, 3, generator=generator)
+    turned = safemath.normalise(quats + 0.5 * torch.randn(200, 4, generator=generator)) * torch.tensor([[-1.0]])
+    results = []
+    for kind, term in ((torch.float32, rigidity), (torch.float64, rigidity_torch)):
+        leaves = [part.detach().to(kind).requires_grad_() for part in (means, quats, moved, turned)]
+        rigid, turn = term(state(*leaves[:2]), state(*leaves[2:]), near, rows)
+        (0.7 * rigid + 0.2 * turn).backward()
+        results.append([rigid.detach(), turn.detach(), *(leaf.grad for leaf in leaves)])
+    for ours, exact in zip(*results, strict=True):
+        assert float((ours.double() - exact).norm() / exact.norm()) < 5e-6
 
 
 def test_n30_coincident_neighbours_have_finite_gradients() -> None:

@@ -1,0 +1,1 @@
+"""Kernels for the priors on motion: numpy arrays in and out, no torch."""
