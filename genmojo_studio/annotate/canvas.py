@@ -160,7 +160,7 @@ class Canvas(QWidget):
             return
         self._paint_frame(painter)
         if self.show_overlay:
-            overlay.draw(painter, self.picture, self.mapping, QRectF(self.rect()))
+            overlay.draw(painter, self.picture, self.mapping, QRectF(self.rect()), fine=not self._calm.isActive())
         self._paint_tools(painter)
         if self.loupe.on:
             self.loupe.paint(painter, self.rect(), self._mouse)

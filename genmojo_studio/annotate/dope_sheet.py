@@ -7,8 +7,19 @@ The pattern is made in one numpy picture per change, so that stepping only moves
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QImage, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF, QResizeEvent, QWheelEvent
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import (
+    QColor,
+    QImage,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPixmap,
+    QPolygonF,
+    QResizeEvent,
+    QWheelEvent,
+)
 from PySide6.QtWidgets import QAbstractScrollArea, QWidget
 
 from genmojo_core.tracks.annotation import KEY
@@ -29,6 +40,7 @@ class DopeSheet(QAbstractScrollArea):
     painted = Signal(int, int, int)  # track, first and last frame
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        self._still: QPixmap | None = None
         super().__init__(parent)
         self._session = session
         self.by_suspicion = False
@@ -93,18 +105,13 @@ class DopeSheet(QAbstractScrollArea):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Ruler, pattern, keys, selection and playhead."""
+        if self._still is None:
+            self._still = self._make_still()
         painter = QPainter(self.viewport())
-        painter.fillRect(event.rect(), self.palette().base())
-        if self._strip is None:
-            self._make_strip()
-        if self._strip is not None:
-            painter.drawImage(QPointF(LABEL, RULER), self._strip)
+        painter.drawPixmap(0, 0, self._still)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, on=True)
-        first = self.verticalScrollBar().value()
-        for n, track in enumerate(self._shown()):
-            self._paint_row(painter, n, track, selected=track == self._session.track)
-        self._paint_ruler(painter)
-        self._paint_brush(painter, first)
+        self._paint_ring(painter)
+        self._paint_brush(painter, self.verticalScrollBar().value())
         x = self.x_of(self._session.frame + 0.5)
         painter.setPen(QPen(self.palette().highlight().color(), 2))
         painter.drawLine(QPointF(x, 12), QPointF(x, self.viewport().height()))
@@ -113,6 +120,24 @@ class DopeSheet(QAbstractScrollArea):
             area = QRectF(LABEL, RULER, self._width(), ROW * 3)
             painter.drawText(area, Qt.AlignmentFlag.AlignCenter, tr("No points yet: place them in step 2."))
         painter.end()
+
+    def _make_still(self) -> QPixmap:
+        """All that stays while only the frame changes."""
+        ratio = self.devicePixelRatioF()
+        still = QPixmap(self.viewport().size() * ratio)
+        still.setDevicePixelRatio(ratio)
+        still.fill(self.palette().base().color())
+        painter = QPainter(still)
+        painter.setFont(self.font())
+        self._make_strip()
+        if self._strip is not None:
+            painter.drawImage(QPointF(LABEL, RULER), self._strip)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, on=True)
+        for n, track in enumerate(self._shown()):
+            self._paint_row(painter, n, track, selected=track == self._session.track)
+        self._paint_ruler(painter)
+        painter.end()
+        return still
 
     def _paint_row(self, painter: QPainter, n: int, track: int, *, selected: bool) -> None:
         session, y = self._session, RULER + n * ROW
@@ -142,7 +167,7 @@ class DopeSheet(QAbstractScrollArea):
                                            QPointF(x, middle + size), QPointF(x - size, middle)]))  # fmt: skip
 
     def _paint_ruler(self, painter: QPainter) -> None:
-        """Frame numbers, ticks of the stride, and below them the frames that are decoded."""
+        """Frame numbers and ticks of the stride."""
         painter.fillRect(QRectF(0, 0, self.viewport().width(), RULER), self.palette().window())
         step = _nice(56 * self._frames() / max(self._width(), 1))
         painter.setPen(self.palette().placeholderText().color())
@@ -153,6 +178,9 @@ class DopeSheet(QAbstractScrollArea):
             for frame in range(0, self._frames(), stride):
                 x = self.x_of(frame + 0.5)
                 painter.drawLine(QPointF(x, 15), QPointF(x, 20))
+
+    def _paint_ring(self, painter: QPainter) -> None:
+        """Frames that are decoded, and the run marked by [ and ]."""
         for first, end in _runs(self._session.cache.held()):
             painter.fillRect(QRectF(self.x_of(first), 23, self.x_of(end) - self.x_of(first), 3), QColor(90, 170, 110))
         run = self._session.run
@@ -264,8 +292,15 @@ class DopeSheet(QAbstractScrollArea):
         self._rows = self._order()
         visible = max(1, (self.viewport().height() - RULER) // ROW)
         self.verticalScrollBar().setRange(0, max(0, len(self._rows) - visible))
-        self._strip = None
+        self._still = None
         self.viewport().update()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Other colours, another picture."""
+        super().changeEvent(event)
+        if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.StyleChange, QEvent.Type.FontChange):
+            self._still = None
+            self.viewport().update()
 
     def _ring_changed(self, _frame: int) -> None:
         self.viewport().update(0, 20, self.viewport().width(), 8)
