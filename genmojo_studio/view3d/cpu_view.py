@@ -58,7 +58,7 @@ class CpuView(QWidget):
         return self._drawer.image(request, view)
 
     def drop_gl(self) -> None:
-        """Stop the thread; the view cannot draw afterwards."""
+        """Stop the thread; the next request starts another."""
         self._drawer.stop()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
@@ -118,8 +118,8 @@ class Drawer:
     def ask(self, request: FrameRequest, size: tuple[int, int]) -> None:
         """Draw for a window of `size` device pixels."""
         with self._wake:
-            self._waiting = (request, size)
-            if self._thread is None and not self._stopped:
+            self._waiting, self._stopped = (request, size), False
+            if self._thread is None:
                 self._thread = threading.Thread(target=self._work, name="splat-painter", daemon=True)
                 self._thread.start()
             self._wake.notify()

@@ -67,6 +67,7 @@ PRESETS: dict[str, Orbit] = {
     "left_90": Orbit(azimuth=-90.0),
     "back": Orbit(azimuth=180.0),
     "top": Orbit(elevation=89.9),
+    "bottom": Orbit(elevation=-89.9),
 }
 
 

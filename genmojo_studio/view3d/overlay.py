@@ -130,7 +130,7 @@ def axes_of(report: FrameReport) -> np.ndarray:  # (3, 3)
 
 def axis_ends(rect: QRectF, axes: np.ndarray) -> list[tuple[QPointF, QColor, str, float]]:
     """(place, colour, preset it leads to, depth) of the six ends, farthest first."""
-    opposite = {"right": "left_90", "up": "below_90", "front": "back"}
+    opposite = {"right": "left_90", "up": "bottom", "front": "back"}
     forward = {"right": "right_90", "up": "top", "front": "input"}
     ends = []
     length = rect.width() / 2 - 14

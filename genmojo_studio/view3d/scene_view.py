@@ -59,7 +59,7 @@ class SceneView(QWidget):
         self._time = 0.0
         self._held: float | None = None
         self._input: Callable[[int], np.ndarray | None] | None = None
-        self._press: tuple[QPointF, QPointF, Orbit] | None = None
+        self._press: tuple[QPointF, QPointF] | None = None  # where it began, where the mouse was last
         self._rest = QTimer(self, interval=REST_MS, singleShot=True)
         self._rest.timeout.connect(self._redraw)
         self._turn = QVariantAnimation(self, duration=TURN_MS, startValue=0.0, endValue=1.0)
@@ -148,11 +148,11 @@ class SceneView(QWidget):
             self.view_changed.emit(orbit)
 
     def preset(self, name: str) -> None:
-        """Turn to a preset of `orbit.PRESETS` (or "below_90"), keeping distance and lens; "input" resets those too."""
+        """Turn to a preset of `orbit.PRESETS`, keeping distance and lens; "input" resets those too."""
         if name == "input":
             self.set_orbit(Orbit(), animate=True)
             return
-        angles = PRESETS.get(name) or Orbit(elevation=-89.9)
+        angles = PRESETS[name]
         self.set_orbit(replace(self._orbit, elevation=angles.elevation, azimuth=angles.azimuth, roll=0.0), animate=True)
 
     def hold_camera(self, t: float | None) -> None:
@@ -212,17 +212,17 @@ class SceneView(QWidget):
             self.preset(preset)
             return
         self._turn.stop()
-        self._press = (event.position(), event.position(), self._orbit)
+        self._press = (event.position(), event.position())
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         """Left turns, middle (or Shift) moves, right changes the distance."""
         if self._press is None or self._snapshot is None:
             return
-        start, last, _ = self._press
+        start, last = self._press
         if start == last and (event.position() - start).manhattanLength() < _CLICK_PIXELS:
             return
         moved = event.position() - last
-        self._press = (start, event.position(), self._press[2])
+        self._press = (start, event.position())
         orbit = navigation.dragged(self._orbit, self.reference(), self.view(), (moved.x(), moved.y()),
                                    navigation.action(event.buttons(), event.modifiers()))  # fmt: skip
         self._go(orbit)
@@ -231,7 +231,7 @@ class SceneView(QWidget):
         """A press without a movement asks what is there."""
         if self._press is None:
             return
-        start, last, _ = self._press
+        start, last = self._press
         self._press = None
         if start == last and event.button() == Qt.MouseButton.LeftButton and self._snapshot is not None:
             self.picked.emit(self.pick(start.x(), start.y()))

@@ -39,6 +39,7 @@ class SplatView(QOpenGLWidget):
         super().__init__(parent)
         self.renderer: SplatRenderer | None = None
         self._ctx: Any = None
+        self._is_useless = False
         self._request: FrameRequest | None = None
         self._feeder = Feeder()
         self._detail = Detail()
@@ -72,18 +73,24 @@ class SplatView(QOpenGLWidget):
         if context is None:
             return
         context.aboutToBeDestroyed.connect(self.drop_gl, Qt.ConnectionType.DirectConnection)
+        self._build()
+
+    def _build(self) -> None:
+        """A renderer in the current context; where that fails, say so once."""
         try:
             moderngl.init_context()  # create_context() crashes in a second view on EGL
             self._ctx = moderngl.get_context()
             self.renderer = SplatRenderer(self._ctx, self._order_ready.emit)
             self._detail = Detail(MOVING_MS if self.renderer.is_software else SMOOTH_MS)
         except (GenmojoError, moderngl.Error, KeyError, ValueError, OSError) as error:
-            self._ctx, self.renderer = None, None
+            self._ctx, self.renderer, self._is_useless = None, None, True
             self.failed.emit(str(error).splitlines()[0])
         self._feeder = Feeder()
 
     def paintGL(self) -> None:  # noqa: N802 - Qt's name
         """Draw the newest request into the framebuffer Qt has now."""
+        if self.renderer is None and not self._is_useless:
+            self._build()  # closed, and shown again
         if self.renderer is None or self._ctx is None:
             return
         target = self._ctx.detect_framebuffer(self.defaultFramebufferObject())
@@ -110,7 +117,7 @@ class SplatView(QOpenGLWidget):
         QTimer.singleShot(_PATIENCE_MS, self, self._check_context)
 
     def drop_gl(self) -> None:
-        """Free everything on the GPU; drawing again needs `initializeGL`."""
+        """Free everything on the GPU; drawing again builds it anew."""
         if self.renderer is None:
             return
         self._prefetch.stop()

@@ -94,6 +94,7 @@ def _check_life(answer: dict, surface: str) -> None:
     assert answer["drawn_while_minimised"] == 0
     assert answer["after_minimised"] == 7.0
     assert answer["second"] > 100
+    assert answer["closed_and_shown"] > 100
     assert answer["second_after_first_closed"] > 100
     assert answer["left"] == []
 
