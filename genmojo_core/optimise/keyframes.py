@@ -39,8 +39,10 @@ def follow(surfaces: ObjectSurfaces, ref: int, matcher: Matcher, deadline: Deadl
     keys = key_frames(frames, ref)
     if len(keys) == frames:
         return ObjectSolver(surfaces, ref, matcher, deadline).run()
-    own = ObjectSolver(surfaces.selected(keys), int(np.searchsorted(keys, ref)), matcher, deadline.part(_KEYS_SHARE))
-    return _filled(own.run(), surfaces, keys, matcher, deadline)
+    solver = ObjectSolver(
+        surfaces.selected(keys), int(np.searchsorted(keys, ref)), matcher, deadline.part(_KEYS_SHARE), keys[1] - keys[0]
+    )
+    return _filled(solver.run(), surfaces, keys, matcher, deadline)
 
 
 def _filled(found: Found, surfaces: ObjectSurfaces, keys: np.ndarray, matcher: Matcher, deadline: Deadline) -> Found:

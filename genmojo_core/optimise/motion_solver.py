@@ -60,8 +60,11 @@ class Found:
 class ObjectSolver:
     """The work for one object; `run` does all of it, `refine` one frame of a path that is nearly right."""
 
-    def __init__(self, surfaces: ObjectSurfaces, ref: int, matcher: Matcher, deadline: Deadline) -> None:
+    def __init__(
+        self, surfaces: ObjectSurfaces, ref: int, matcher: Matcher, deadline: Deadline, stride: int = 1
+    ) -> None:
         self.surfaces, self.matcher, self.ref, self.deadline = surfaces, matcher, ref, deadline
+        self.stride = stride  # frames of the clip from one of these to the next
         self.frames = len(surfaces.surfaces)
         self.seen = np.array([s is not None for s in surfaces.surfaces])
         if not self.seen[ref] and self.seen.any():
@@ -91,7 +94,7 @@ class ObjectSolver:
         residual = self._residual(path, rigid, sights)
         if self._residual(path, bend, sights) > _BEND_GAIN * residual:
             bend = rigid
-        confidence = np.where(rough, _ROUGH * self.seen, self._confidence(sights))
+        confidence = np.where(rough, _ROUGH * self.seen, self._confidence(sights) * self._contained(path))
         return Found(self.surfaces, path, bend, confidence, residual, hurried)
 
     def refine(self, path: Path, t: int, sources: list[int]) -> tuple[Path, bool]:
@@ -134,7 +137,10 @@ class ObjectSolver:
     def _choose_anchor(self) -> None:
         """Where the centre lies by the visible surface alone, and how far to believe it: little, and only if whole."""
         whole = whole_area(self.surfaces.layer)
-        share = np.clip(2.0 * whole / max(float(whole.max()), 1e-9) - 1.0, 0.0, 1.0)
+        usual = (
+            float(np.percentile(whole[self.seen], 75)) if self.seen.any() else 0.0
+        )  # the largest may be a wrong mask
+        share = np.clip(2.0 * whole / max(usual, 1e-9) - 1.0, 0.0, 1.0)
         self.anchor = np.array([np.zeros(3) if s is None else _middle(s) for s in self.surfaces.surfaces])
         self.anchor_weight = share * self.seen / (_ANCHOR * self.surfaces.size) ** 2
 
@@ -145,7 +151,7 @@ class ObjectSolver:
                        surface_sigma=_ON_SURFACE[0 if measured else 1] * size,
                        depth_sigma=0.0 if measured else 0.15 * size,
                        turn_weight=0.0 if measured else _TURN_WEIGHT,
-                       anchor=self.anchor, anchor_weight=self.anchor_weight)  # fmt: skip
+                       anchor=self.anchor, anchor_weight=self.anchor_weight, stride=self.stride)  # fmt: skip
 
     def _points(self, index: np.ndarray) -> np.ndarray:  # (N,) -> (N, 3) world
         """Source points in their own frame."""
@@ -259,7 +265,7 @@ class ObjectSolver:
         rotation, position = _continued(path, t, direction)
         if not self.seen[t]:  # slower and slower: a motion does not go on for long unseen
             last = path.position[t - direction]
-            return path.moved(t, path.rotation[t - direction], last + _UNSEEN * (position - last)), []
+            return path.moved(t, path.rotation[t - direction], last + _UNSEEN**self.stride * (position - last)), []
         path = path.moved(t, rotation, position)
         sources = [s for s in done if abs(s - t) in _BACK] or done[-1:]
         path = self._best_start(path, sources[-1], t)
@@ -302,7 +308,7 @@ class ObjectSolver:
         hidden = lost or (steady and self.surfaces.layer.mask[t].sum() < _SCRAP * self.surfaces.area.max())
         for shift in [] if hidden else best_shifts(self.surfaces.layer, surface.grid, t, predicted):
             moves.append(np.array([shift[0] / k[0, 0] * z, shift[1] / k[1, 1] * z, 0.0]) @ pose[:3, :3])
-        allowed = self.surfaces.size * (_JUMP if steady else 1.0)
+        allowed = self.surfaces.size * (min(_JUMP * self.stride, 1.0) if steady else 1.0)
         best, best_score = path, -1.0
         for move in moves:
             tried = path.moved(t, path.rotation[t], path.position[t] + move)
@@ -324,6 +330,25 @@ class ObjectSolver:
         confidence = np.clip(2.0 * support / usual, 0.0, 1.0)
         confidence[self.ref] = 1.0
         return confidence
+
+    def _contained(self, path: Path) -> np.ndarray:  # (T,)
+        """1 where at least half of the reference surface falls on the object's mask, or where it may be hidden.
+
+        Matches among frames that all lost the object agree with one another; its mask tells.
+        """
+        surface, layer = self.surfaces.surfaces[self.ref], self.surfaces.layer
+        contained = np.zeros(self.frames)
+        if surface is None:
+            return contained
+        points = surface.points[surface.grid.inside]
+        height, width = layer.mask.shape[1:]
+        for t in np.nonzero(self.seen)[0]:
+            xy = project(self.surfaces.cameras, t, path.between(self.ref, t, points))
+            inside = ((xy >= 0) & (xy < [width, height])).all(axis=1)
+            column, row = np.where(inside[:, None], xy, 0).astype(np.int64).T
+            may = ~inside | layer.mask[t, row, column] | layer.other[t, row, column]
+            contained[t] = min(1.0, 2.0 * float(may.mean()))
+        return contained
 
     def _residual(self, path: Path, bend: Bend, sights: list[Sight]) -> float:
         """Median distance in pixels of the matches to what path and bend predict."""

@@ -45,7 +45,7 @@ def solve(
         for sight in problem.sights:
             if free[sight.source] or free[sight.target]:
                 _add_sight(normal, right, shape, sight, problem, path, depth, free, slot)
-        _add_smoothness(normal, right, path, (free, known), slot, problem.size)
+        _add_smoothness(normal, right, path, (free, known), slot, problem)
         if problem.turn_weight > 0:
             _add_stillness(normal, right, path, (free, known), slot, problem.turn_weight)
         if problem.anchor is not None and problem.anchor_weight is not None:
@@ -222,10 +222,10 @@ def _add_smoothness(
     path: Path,
     frames: tuple[np.ndarray, np.ndarray],  # free, known
     slot: np.ndarray,
-    size: float,
+    problem: Problem,
 ) -> None:
     """Second differences of position (sigma 3 % of the size) and of rotation (sigma 2 degrees) in time."""
-    weights = np.repeat([1.0 / np.deg2rad(2.0) ** 2, 1.0 / (0.03 * size) ** 2], 3)
+    weights = np.repeat([1.0 / np.deg2rad(2.0) ** 2, 1.0 / (0.03 * problem.size) ** 2], 3) / problem.stride**2
     free, known = frames
     for t in range(1, len(path.position) - 1):
         if not known[t - 1 : t + 2].all():

@@ -86,6 +86,7 @@ class Problem:
         turn_weight: cost per rad^2 of turning between neighbouring frames.
         anchor, anchor_weight: (T, 3) world and (T,) per unit^2: where the centre lies by the mask alone, to hold frames
             together that no match connects; None: nothing is known.
+        stride: frames of the clip from one frame to the next; motion between them may be as many times less even.
     """
 
     cameras: Cameras
@@ -101,6 +102,7 @@ class Problem:
     turn_weight: float = 0.0
     anchor: np.ndarray | None = None
     anchor_weight: np.ndarray | None = None
+    stride: int = 1
 
 
 def still_path(frames: int, centre: np.ndarray, ref: int) -> Path:
