@@ -237,6 +237,7 @@ def open_session(state: AppState, path: Path, person: str, project_file: Path | 
         except GenmojoError:
             cache.close()
             raise
-    if state.clip is None:
-        state.set(clip_path=Path(project.info.path), frame_count=cache.count)
+    there = Path(project.info.path)
+    if state.clip is None or state.clip_path != there or len(state.clip) != cache.count:
+        state.set(clip=None, clip_path=there, frame_count=cache.count, frame=0)
     return Session(state, cache, project)

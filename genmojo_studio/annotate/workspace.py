@@ -26,6 +26,7 @@ from genmojo_studio.actions import ActionTable
 from genmojo_studio.annotate.bindings import Hands, bind, position_text
 from genmojo_studio.annotate.button_panel import ButtonPanel, StepBar
 from genmojo_studio.annotate.canvas import Canvas, Tool
+from genmojo_studio.annotate.focus import KeyboardManners, give_back
 from genmojo_studio.annotate.held import HeldKeys
 from genmojo_studio.annotate.objects_page import ObjectsPage
 from genmojo_studio.annotate.play_panel import PlayPanel
@@ -93,6 +94,8 @@ class AnnotateWorkspace(QMainWindow):
         self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.BottomDockWidgetArea)
         self.setCentralWidget(_hint(tr("Open a clip to annotate it (Ctrl+O).")))
         self.held = HeldKeys(self, actions)
+        self._manners = KeyboardManners(self)
+        state.subscribe(self._theme_changed, "theme")
         actions.bind("annotate.file.tour", self.start_tour)
         self._steps_later = QTimer(self, singleShot=True, interval=150)
         self._steps_later.timeout.connect(self._show_steps)
@@ -149,7 +152,7 @@ class AnnotateWorkspace(QMainWindow):
         session.said.connect(self.say)
         session.stored.connect(self._stored)
         bind(self)
-        self.state.subscribe(self._theme_changed, "theme")
+        give_back(self.pages, self.canvas)
         self._theme_changed()
         self.show_step(self._first_open_step())
         self.screen_link.show_frame(session.frame)
@@ -165,6 +168,12 @@ class AnnotateWorkspace(QMainWindow):
             return
         self.play.player.stop()
         self.work.close()
+        for dock in self.docks.values():
+            old = dock.widget()
+            dock.setWidget(QWidget())
+            if old is not None:
+                old.deleteLater()
+        self.setCentralWidget(_hint(tr("Open a clip to annotate it (Ctrl+O).")))
         session.close()
         session.deleteLater()
 

@@ -284,3 +284,45 @@ def test_repaints_do_not_lose_references_to_none(workspace, qapp):
         workspace.play.sheet.viewport().repaint()
         qapp.processEvents()
     assert abs(sys.getrefcount(None) - start) < 300, "one reference per repaint is lost or leaked"
+
+
+def test_keys_stay_with_the_field_or_list_that_has_the_keyboard(workspace, qtbot):
+    """Enter in a note must not accept a frame, Space on a button must press it, arrows in the tree must move in it."""
+    choose_all(workspace)
+    place_points(workspace, each=2)
+    fill(workspace)
+    workspace.show_step(2)
+    session = workspace.session
+    session.go(4)
+    note = workspace.refine.note
+    note.setFocus()
+    QTest.keyClicks(note, "a dot")
+    QTest.keyClick(note, Qt.Key.Key_Return)
+    assert session.frame == 4 and session.annotation.tracks[session.track].note == "a dot"
+    tree = workspace.refine.tree
+    tree.setFocus()
+    before = session.active
+    QTest.keyClick(tree, Qt.Key.Key_Down)
+    assert session.active == (before[0], before[1] + 1) and session.frame == 4
+    QTest.keyClick(tree, Qt.Key.Key_Right)
+    assert session.frame == 5
+    workspace.show_step(3)
+    session.select_track(next(iter(session.annotation.tracks)))
+    track = session.track
+    workspace.review.approve_button.setFocus()
+    QTest.keyClick(workspace.review.approve_button, Qt.Key.Key_Space)
+    assert session.annotation.tracks[track].review == "approved" and not workspace.play.player.playing
+
+
+def test_another_clip_takes_the_place_of_the_first_and_nothing_is_lost(workspace, clip_folder, tmp_path):
+    from genmojo_studio.annotate.session import open_session
+
+    choose_all(workspace)
+    first = workspace.session.project.path
+    digest = workspace.session.annotation.digest()
+    workspace.close_clip()
+    workspace.open_with(open_session(workspace.state, clip_folder, "Bea", tmp_path / "b.genmojo"))
+    assert not workspace.session.objects() and workspace.session.project.person == "Bea"
+    again = Project.open(first)
+    assert again.annotation.digest() == digest
+    again.close()
