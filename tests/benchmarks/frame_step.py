@@ -22,7 +22,7 @@ from PySide6.QtCore import QEventLoop
 from PySide6.QtWidgets import QApplication
 
 from genmojo_core.store.project import Project, info_of
-from genmojo_core.tracks.annotation import Annotation, Cells, ObjectInfo, TrackInfo
+from genmojo_core.tracks.annotation import Annotation, ObjectInfo, TrackInfo
 from genmojo_studio import theme
 from genmojo_studio.actions import ActionTable
 from genmojo_studio.annotate.actions import ACTIONS
@@ -52,15 +52,16 @@ def fill(annotation: Annotation, tracks: int) -> None:
     annotation.reserve(tracks)
     for k in range(1, 6):
         annotation.put_object(k, ObjectInfo(k, f"object {k}", k, "chosen"))
-    t = np.arange(annotation.frames)[:, None]
     for n in range(tracks):
         annotation.put_track(n + 1, TrackInfo(n + 1, n % 5 + 1, n // 5 + 1))
-        way = np.stack([np.cos(t[:, 0] / 9 + n), np.sin(t[:, 0] / 7)], 1)
-        xy = random.uniform((100, 100), (W - 100, H - 100)) + 60 * way
-        cells = Cells.empty(annotation.frames)
-        cells.xy[:], cells.state[:], cells.conf[:] = xy, 1 + (t[:, 0] // 8 + n) % 5 // 4, 0.8
-        cells.flags[::16] = 5
-        annotation.write_cells(n + 1, np.arange(annotation.frames), cells)
+    start = random.uniform((100, 100), (W - 100, H - 100), (tracks, 2))
+    which = np.arange(tracks)
+    cells = annotation._cells  # frame by frame, as it lies in memory: thousands of tracks one by one take minutes
+    for t in range(annotation.frames):
+        cells.xy[t, :tracks] = start + 60 * np.stack([np.cos(t / 9 + which), np.sin(t / 7 + 0 * which)], 1)
+        cells.state[t, :tracks] = 1 + (t // 8 + which) % 5 // 4
+        cells.flags[t, :tracks] = 5 if t % 16 == 0 else 0
+    cells.conf[:] = 0.8
     annotation.revision += 1
 
 
