@@ -34,10 +34,6 @@ class Menus(QObject):
         self._timer.timeout.connect(self._refresh_keys)
         table.subscribe(self._timer.start)
 
-    def action(self, action_id: str) -> QAction:
-        """The Qt action of an entry, for tool bars."""
-        return self._actions[action_id]
-
     def menu(self, title: str) -> QMenu:
         """A menu by its English title, made if it is not there ("View/Direction" for a submenu)."""
         if title not in self._menus:

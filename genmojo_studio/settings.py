@@ -21,13 +21,9 @@ class Settings:
         """A stored text."""
         return str(self._store.value(key, default))
 
-    def flag(self, key: str, default: bool = False) -> bool:
-        """A stored yes or no."""
-        return self.text(key, "true" if default else "false") == "true"
-
-    def put(self, key: str, value: str | bool) -> None:
-        """Stores a text or a yes or no."""
-        self._store.setValue(key, ("true" if value else "false") if isinstance(value, bool) else value)
+    def put(self, key: str, value: str) -> None:
+        """Stores a text."""
+        self._store.setValue(key, value)
 
     def layout(self, name: str) -> QByteArray | None:
         """A window state or geometry stored under a name."""

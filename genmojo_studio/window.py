@@ -63,7 +63,8 @@ class MainWindow(QMainWindow):
         self.workspace = ""
         self.setWindowTitle("GenMOJO Studio")
         self.setAcceptDrops(True)
-        self.resize(1500, 900)
+        room = self.screen().availableGeometry()
+        self.resize(min(1600, room.width()), min(950, room.height()))
         self.welcome = Welcome()
         self.stack = QStackedWidget()
         self.stack.addWidget(self.welcome)

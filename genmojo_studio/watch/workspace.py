@@ -77,6 +77,14 @@ class WatchWorkspace(QMainWindow):
         scene = self.session.scene
         if scene is not None and str(scene.config.get("input", "")) == str(path):
             return
+        request = self.control.client.request
+        if (
+            self.control.live
+            and request is not None
+            and request.clip != str(path)
+            and not may_leave(self.control, self)
+        ):
+            return
         if not self.control.live:
             self.session.clear()
             self.center.set_mode("side")

@@ -1545,7 +1545,7 @@
     </message>
     <message>
       <source>Preparing the drawing kernels, once on this computer …</source>
-      <translation type="unfinished" />
+      <translation>Die Zeichenkerne werden vorbereitet, einmal auf diesem Rechner …</translation>
     </message>
     <message>
       <source>elevation {degrees:+.1f}°</source>
@@ -1933,7 +1933,7 @@
     </message>
     <message>
       <source>No scene yet. Start a run (F5), or open a scene file.</source>
-      <translation type="unfinished" />
+      <translation>Noch keine Szene. Starten Sie einen Lauf (F5) oder öffnen Sie eine Szene.</translation>
     </message>
     <message>
       <source>Turn the view</source>
