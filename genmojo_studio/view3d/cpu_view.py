@@ -119,7 +119,7 @@ class Drawer:
         """Draw for a window of `size` device pixels."""
         with self._wake:
             self._waiting, self._stopped = (request, size), False
-            if self._thread is None:
+            if self._thread is None or not self._thread.is_alive():  # not begun, stopped, or died of a fault
                 self._thread = threading.Thread(target=self._work, name="splat-painter", daemon=True)
                 self._thread.start()
             self._wake.notify()

@@ -106,8 +106,13 @@ def test_errors_of_the_kernels_are_told(monkeypatch: pytest.MonkeyPatch) -> None
     snapshot = random_snapshot(3)
     drawer.ask(FrameRequest(snapshot, reference_of(snapshot), Orbit(), Look(), 0.0), (20, 20))
     assert told.wait(10)
-    drawer.stop()
     assert reasons == ["no kernels"]
+    monkeypatch.undo()
+    drawn = threading.Event()
+    drawer._finished = lambda *_: drawn.set()
+    drawer.ask(FrameRequest(snapshot, reference_of(snapshot), Orbit(), Look(), 0.0), (20, 20))
+    assert drawn.wait(30)  # the next picture is tried again
+    drawer.stop()
 
 
 def test_less_detail_is_smaller_and_similar() -> None:
