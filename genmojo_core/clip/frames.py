@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Protocol
 
 import av
-import cv2
 import numpy as np
 from av.error import FFmpegError
 
@@ -65,12 +64,12 @@ class FolderFrames:
 
     def read(self, index: int, keep: Keep | None = None) -> np.ndarray:
         """(H, W, 4) uint8 BGRA; raises GenmojoError("schema") for a frame of another size than the first."""
-        rgb = images.read_rgb(self._files[index])
-        if (rgb.shape[1], rgb.shape[0]) != self.size:
-            raise GenmojoError("schema", f"is {rgb.shape[1]} x {rgb.shape[0]} but the first frame is "
+        picture = images.read_bgra(self._files[index])
+        if (picture.shape[1], picture.shape[0]) != self.size:
+            raise GenmojoError("schema", f"is {picture.shape[1]} x {picture.shape[0]} but the first frame is "
                                f"{self.size[0]} x {self.size[1]}", str(self._files[index]),
                                "make all frames the same size")  # fmt: skip
-        return np.asarray(cv2.cvtColor(rgb, cv2.COLOR_RGB2BGRA))
+        return picture
 
     def close(self) -> None:
         """Nothing is held open."""

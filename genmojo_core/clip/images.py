@@ -35,6 +35,16 @@ def read_rgb(path: Path) -> np.ndarray:
     Raises GenmojoError: "io" if it cannot be read; "format" if it is no image, another kind than its bytes say, cut
     short or damaged; "size" if it is too large.
     """
+    return np.asarray(cv2.cvtColor(_read_bgr(path), cv2.COLOR_BGR2RGB))
+
+
+def read_bgra(path: Path) -> np.ndarray:
+    """(H, W, 4) uint8 B, G, R, 255 of an image file, as screens take it. Raises GenmojoError as `read_rgb`."""
+    return np.asarray(cv2.cvtColor(_read_bgr(path), cv2.COLOR_BGR2BGRA))
+
+
+def _read_bgr(path: Path) -> np.ndarray:
+    """(H, W, 3) uint8 as OpenCV decodes it, after the checks of `read_rgb`."""
     data = _read_bytes(path)
     kind = _kind(data)
     if kind == "png":
@@ -54,7 +64,7 @@ def read_rgb(path: Path) -> np.ndarray:
         bgr = None
     if bgr is None:
         raise GenmojoError("format", "is an image that cannot be decoded", str(path), "write the file again")
-    return cv2.cvtColor(bgr, cv2.COLOR_BGR2RGB)
+    return np.asarray(bgr)
 
 
 def read_labels(path: Path) -> Labels:
