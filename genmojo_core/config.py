@@ -72,7 +72,7 @@ class RunConfig:
     seed: int = 0
     device: str = "auto"
     prior: str = "none"  # embedded, none, zero123:DIR or zeronvs:DIR
-    prior_mode: Literal["sds", "x0", "pseudo"] = "pseudo"  # how it is followed: sds, x0 or pseudo (priors/sds.py)
+    prior_mode: Literal["auto", "sds", "x0", "pseudo"] = "auto"  # priors/sds.py; auto: pseudo if it can, else sds
     prior_scope: Literal["object", "scene"] = "object"  # what the prior is shown: one object, or all as one
     prior_views: int = 4  # views per object and step
     prior_objects: int = 1  # objects per step that are shown to the prior; 0 = all
@@ -140,7 +140,7 @@ _RANGES: dict[str, tuple[float, float]] = {
 }
 PRIORS = ("none", "embedded", "zero123:DIR", "zeronvs:DIR")
 METHODS = ("genmojo", "dreamscene4d", "dreamgaussian4d", "shape-of-motion")  # optimise/methods.py
-PRIOR_MODES = ("sds", "x0", "pseudo")
+PRIOR_MODES = ("auto", "sds", "x0", "pseudo")
 
 
 def _faults(config: RunConfig) -> list[str]:

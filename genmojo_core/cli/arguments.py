@@ -96,7 +96,7 @@ def add_config_options(parser: argparse.ArgumentParser) -> None:
                         help="what draws sides that no frame shows (also zeronvs:DIR)")  # fmt: skip
     parser.add_argument("--method", metavar="NAME", help="genmojo, or what it is compared with: dreamscene4d, "
                         "dreamgaussian4d, shape-of-motion")  # fmt: skip
-    parser.add_argument("--prior-mode", metavar="pseudo|x0|sds", help="how the prior is followed")
+    parser.add_argument("--prior-mode", metavar="auto|pseudo|x0|sds", help="how the prior is followed")
 
 
 def config_changes(args: argparse.Namespace) -> dict[str, Any]:

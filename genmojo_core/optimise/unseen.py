@@ -26,7 +26,7 @@ from genmojo_core.priors.completion import in_world, selected, surface_points, u
 from genmojo_core.priors.embedded import EmbeddedPrior, view_cameras
 from genmojo_core.priors.prior import ViewOffsets, ViewPrior
 from genmojo_core.priors.references import LEAST_VISIBLE, PlacedReference, reference_of
-from genmojo_core.priors.sds import distil
+from genmojo_core.priors.sds import Mode, distil
 from genmojo_core.priors.solids import HALF_EXTENT
 from genmojo_core.priors.zero123 import Zero123Prior
 from genmojo_core.render.backend import Splat
@@ -119,7 +119,7 @@ class UnseenViews:
         chosen = rng.permutation(len(ready))[: self.config.prior_objects or len(ready)]
         losses = [self._object_loss(ready[i], moment, rng, generator) for i in chosen]
         loss = weight * fade(moment.share) * torch.stack(losses).mean()
-        outcome.loss = outcome.loss + loss
+        outcome.loss = outcome.loss + loss.to(outcome.loss.device)
         outcome.parts["unseen"] = float(loss.detach())
         self.share = moment.share
 
@@ -134,6 +134,13 @@ class UnseenViews:
         if psnr > self.best - WORSE:
             return ""
         return f"held-out pixels fell from {self.best:.1f} to {psnr:.1f} dB while the prior spoke: it is switched off"
+
+    def mode(self) -> Mode:
+        """How the prior is followed: as configured; by itself the embedded one as pseudo-views, others by sds."""
+        chosen = self.config.prior_mode
+        if chosen == "auto":
+            return "pseudo" if isinstance(self.prior, EmbeddedPrior) else "sds"
+        return chosen
 
     def supervised(self) -> np.ndarray:
         """(M, 3) float32 rows elevation, azimuth (degrees), frame of the views the prior judged."""
@@ -151,8 +158,7 @@ class UnseenViews:
         self.seen += [(float(e), float(a), t) for e, a in zip(views.elevation, views.azimuth, strict=True)]
         pictures = self._render(one.models, placed, t, views, moment)
         level = float(rng.uniform(*levels(moment.share)))
-        mode = self.config.prior_mode
-        said = distil(self.prior, pictures, one.conditions[t], views, level, mode, generator)
+        said = distil(self.prior, pictures, one.conditions[t], views, level, self.mode(), generator)
         return said.loss * placed.visible * (2.0 / said.gradient.numel())
 
     def _render(

@@ -21,6 +21,7 @@ from genmojo_core.priors import zero123_folder  # noqa: E402
 from genmojo_core.priors.prior import Reference, ViewOffsets  # noqa: E402
 from genmojo_core.priors.sds import distil  # noqa: E402
 from genmojo_core.priors.zero123 import camera_numbers  # noqa: E402
+from tests.optimise.small_runs import small_clip, small_run  # noqa: E402
 
 EMBEDDING = 32
 
@@ -180,6 +181,15 @@ def test_a_missing_component_is_one_sentence_that_names_it(tiny, tmp_path, part)
     with pytest.raises(GenmojoError) as caught:
         zero123_folder.load(tmp_path)
     assert part in caught.value.sentence() and "\n" not in caught.value.sentence()
+
+
+def test_a_run_follows_it_by_score_distillation(tiny):
+    run = small_run(small_clip(width=112), prior=f"zero123:{tiny}", lift_steps=1, joint_steps=1, prior_views=1)
+    events = list(run)
+    assert events[-1].reason == "done" and run.unseen.mode() == "sds"
+    steps = [e for e in events if hasattr(e, "losses")]
+    assert len(steps) == 2 and all(e.losses["unseen"] > 0 for e in steps)
+    assert any("MiB" in e.message for e in events if hasattr(e, "message"))
 
 
 def test_original_checkpoints_point_to_the_converter(tmp_path):
