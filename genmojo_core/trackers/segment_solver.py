@@ -62,8 +62,10 @@ def _pairs(motion: ObjectMotion, first: int, end: int) -> list[tuple[int, int]]:
     reach = max(SPANS)
     near = range(max(first - reach, 0), min(end + reach, motion.frames))
     shown = [t for t in near if motion.grid(t) is not None]
+    beside = set(zip(shown[:-1], shown[1:], strict=True))  # also over a gap in which the object is not seen
     return [(s, t) for s in shown for t in shown
-            if abs(s - t) in SPANS and (first <= t < end or first <= s < end)]  # fmt: skip
+            if (abs(s - t) in SPANS or (s, t) in beside or (t, s) in beside)
+            and (first <= t < end or first <= s < end)]  # fmt: skip
 
 
 def _step(xy: np.ndarray, unknown: np.ndarray, edges: _Edges) -> None:

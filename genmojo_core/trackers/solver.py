@@ -100,7 +100,7 @@ class TrackSolver:
 
         Raises GenmojoError("argument") if the clip has no such object.
         """
-        if not request.tracks:
+        if not request.tracks or (request.key is not None and request.key[0] not in request.tracks):
             return SolveAnswer(request, {})
         motion = self._motion(request.object_id)
         xy = np.stack([c.xy for c in request.cells]).astype(np.float64) * self.scale
@@ -173,21 +173,26 @@ def _chained(
     motion: ObjectMotion, xy: np.ndarray, known: np.ndarray, fixed: np.ndarray,
     progress: Callable[[float], None] | None, cancelled: Callable[[], bool] | None,
 ) -> np.ndarray:  # (n, T, 2)  # fmt: skip
-    """First places where there is none yet: every frame from its neighbour towards the nearest sure one."""
+    """First places where there is none yet: outward from each point's first sure frame.
+
+    Where the object is not seen at all a point stays; from there on it is carried from the last frame that shows it.
+    """
     out = xy.copy()
-    frames = motion.frames
-    sure = [np.flatnonzero(f & k) for f, k in zip(fixed, known, strict=True)]
-    begin = min((int(s[0]) for s in sure if len(s)), default=0)
-    order = [*range(begin + 1, frames), *range(begin - 1, -1, -1)]
-    for count, t in enumerate(order):
-        s = t - 1 if t > begin else t + 1
-        rows = np.flatnonzero(~fixed[:, t])
-        carried = motion.carry(s, t, out[rows, s]) if len(rows) else None
-        out[rows, t] = out[rows, s] if carried is None else carried[0]
+    sure = fixed & known
+    begin = np.argmax(sure, axis=1)
+    homes = np.unique(begin[sure.any(axis=1)])
+    jobs = [(q, range(q + step, end, step)) for q in homes.tolist() for step, end in ((1, motion.frames), (-1, -1))]
+    for count, (q, frames) in enumerate(jobs):
+        mine, source = np.flatnonzero(sure.any(axis=1) & (begin == q)), q
+        for t in frames:
+            rows = mine[~fixed[mine, t]]
+            carried = motion.carry(source, t, out[rows, source]) if len(rows) else None
+            out[rows, t] = out[rows, source] if carried is None else carried[0]
+            source = t if motion.grid(t) is not None else source
+            if cancelled is not None and cancelled():
+                raise GenmojoError("argument", "was cancelled", "seeding")
         if progress is not None:
-            progress((count + 1) / (2 * len(order)))
-        if cancelled is not None and cancelled():
-            raise GenmojoError("argument", "was cancelled", "seeding")
+            progress((count + 1) / (2 * len(jobs)))
     return out
 
 

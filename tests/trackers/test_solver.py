@@ -70,6 +70,29 @@ def test_a_key_is_met_exactly_and_brings_its_neighbours_closer(made: tuple) -> N
     assert np.mean([e.mean() for e in after.values()]) < 0.6 * np.mean([e.mean() for e in before.values()])
 
 
+def test_points_may_begin_in_different_frames(made: tuple) -> None:
+    clip, truth, solver = made
+    owner, annotation = int(clip.object_ids[0]), Annotation(len(clip), clip.source_size)
+    edit_tracks.put_objects(annotation, [ObjectInfo(owner, "thing", 1, "chosen")]).do(annotation)
+    rows = np.flatnonzero((truth.object == owner) & truth.visible[:, [0, 3, 4]].all(axis=1))[:2]
+    for number, (row, t) in enumerate(zip(rows, (0, 4), strict=True)):
+        edit = edit_tracks.add_track(annotation, owner, number + 1)
+        edit.do(annotation)
+        keys.set_key(annotation, edit.track, t, tuple(float(v) for v in truth.xy[row, t])).do(annotation)
+    solver.answer(SolveRequest.of(annotation, owner)).edit(annotation).do(annotation)
+    assert np.linalg.norm(annotation.track(2).xy[3] - truth.xy[rows[1], 3]) < 1.5
+    assert np.linalg.norm(annotation.track(2).xy[0] - truth.xy[rows[1], 0]) < 6.0
+
+
+def test_a_request_without_its_track_is_answered_with_nothing(made: tuple) -> None:
+    clip, truth, solver = made
+    annotation, rows = begun(clip, truth)
+    owner = int(clip.object_ids[0])
+    track = annotation.tracks_of(owner)[0].id
+    keys.remove_key(annotation, track, 0).do(annotation)
+    assert solver.answer(SolveRequest.of(annotation, owner, (track, 0))).found == {}
+
+
 def test_an_answer_that_comes_too_late_changes_nothing(made: tuple) -> None:
     clip, truth, solver = made
     annotation, rows = begun(clip, truth)
