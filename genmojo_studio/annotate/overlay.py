@@ -21,7 +21,8 @@ from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
 from genmojo_studio.annotate.colours import glyph, object_colour, point_colour
 from genmojo_studio.annotate.mapping import Mapping
 
-DETAILED = 64
+DETAILED = 25  # marks with glyph and trail where there are more than MANY tracks
+MANY = 64
 RADIUS = 6.0
 _DARK = QColor(12, 14, 18)
 

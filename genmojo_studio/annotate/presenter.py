@@ -6,7 +6,7 @@ import numpy as np
 
 from genmojo_core.tracks.annotation import FrameView
 from genmojo_core.tracks.model import NONE
-from genmojo_studio.annotate.overlay import DETAILED, Mark, Picture, contours_of
+from genmojo_studio.annotate.overlay import DETAILED, MANY, Mark, Picture, contours_of
 from genmojo_studio.annotate.session import Session
 
 
@@ -78,7 +78,7 @@ class Presenter:
 
     def _detailed(self, view: FrameView) -> np.ndarray:
         """Places in `view` of the tracks with glyphs: all if they are few, else the active object's and the first."""
-        if len(view.ids) <= DETAILED:
+        if len(view.ids) <= MANY:
             return np.arange(len(view.ids))
         own = {self._session.track or 0}
         if len(view.ids) < 500:

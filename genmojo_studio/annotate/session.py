@@ -62,6 +62,8 @@ class Session(QObject):
         self.suspicion: dict[int, np.ndarray] = {}  # track -> (T,) 0..1
         self.snap = False
         self.hand_masks: dict[int, np.ndarray] = {}  # object id -> (T, h, w) bool, made in step 1
+        self._points: dict[tuple[int, int], int] = {}
+        self._looked_up = -1
         self._back: list[tuple[int, tuple[int, int]]] = []
         self.annotation.listeners.append(self._touched)
         project.saved = lambda _seq, seconds: self.stored.emit(seconds)
@@ -90,7 +92,10 @@ class Session(QObject):
 
     def track_of(self, object_id: int, number: int) -> int | None:
         """The track of a point of an object."""
-        return next((i.id for i in self.annotation.tracks_of(object_id) if i.number == number), None)
+        if self._looked_up != self.annotation.revision:  # asked for at every step: never a search
+            self._looked_up = self.annotation.revision
+            self._points = {(i.object, i.number): i.id for i in self.annotation.tracks.values()}
+        return self._points.get((object_id, number))
 
     def objects(self) -> list[ObjectInfo]:
         """Objects that are annotated, in their order."""

@@ -74,7 +74,12 @@ class TrackTree(QTreeWidget):
         session.selected.connect(self._select)
         session.shown.connect(self._later.start)
         session.frame_changed.connect(self._frame_changed)
+        self.verticalScrollBar().valueChanged.connect(self._frame_changed)
         self.rebuild()
+
+    def showEvent(self, event: object) -> None:
+        """Made up to date when it is looked at."""
+        self._later.start()
 
     def rebuild(self) -> None:
         """Objects or points have come or gone."""
@@ -109,16 +114,21 @@ class TrackTree(QTreeWidget):
         self._later.start()
 
     def _update_states(self) -> None:
-        session = self._session
-        for (object_id, number), item in self._items.items():
-            track = session.track_of(object_id, number)
-            for column, kind in enumerate(self._columns, 1):
-                text, colour = self._cell(track, kind)
-                item.setText(column, text)
-                if colour is not None:
+        """The rows that show; the others are filled when they are scrolled to."""
+        view = self._session.annotation.at(self._session.frame)
+        known = dict(zip(view.ids.tolist(), zip(view.state.tolist(), view.flags.tolist(), strict=True), strict=True))
+        item = self.itemAt(2, 2) or self.topLevelItem(0)
+        while item is not None and self.visualItemRect(item).top() <= self.viewport().height():
+            object_id, number = item.data(0, _POINT)
+            if number:
+                track = self._session.track_of(object_id, number)
+                for column, kind in enumerate(self._columns, 1):
+                    text, colour = self._cell(track, kind, known)
+                    item.setText(column, text)
                     item.setForeground(column, colour)
+            item = self.itemBelow(item)
 
-    def _cell(self, track: int | None, kind: str) -> tuple[str, QColor | None]:
+    def _cell(self, track: int | None, kind: str, known: dict[int, tuple[int, int]]) -> tuple[str, QColor]:
         if track is None:
             return ("–" if kind != "doubt" else ""), self.palette().placeholderText().color()
         session, info = self._session, self._session.annotation.tracks[track]
@@ -132,12 +142,9 @@ class TrackTree(QTreeWidget):
             values = session.suspicion.get(track)
             doubt = float(values[session.frame]) if values is not None else 0.0
             return (f"!{round(9 * doubt)}" if doubt >= 0.3 else ""), QColor(220, 70, 60)
-        row = session.annotation.row(track)
-        cells = session.annotation.at(session.frame)
-        at = (cells.rows == row).nonzero()[0]
-        flags = int(cells.flags[at[0]]) if len(at) else 0
+        state, flags = known.get(track, (0, 0))
         marks = (" ◆" if flags & KEY else " ✓" if flags & CONFIRMED else "") + ("?" if flags & UNCERTAIN else "")
-        return state_name(int(cells.state[at[0]]) if len(at) else 0) + marks, plain
+        return state_name(state) + marks, plain
 
     def _select(self) -> None:
         item = self._items.get(self._session.active)

@@ -133,11 +133,12 @@ def cached(workspace: AnnotateWorkspace, frames: list[int]) -> np.ndarray:
 
 def uncached(workspace: AnnotateWorkspace, frames: list[int]) -> np.ndarray:
     """(n, 2) milliseconds of steps whose frame must be decoded first."""
-    times = []
+    times, room = [], workspace.session.cache.capacity
     workspace.session.cache.capacity = 1  # no frames ahead: only the wanted frame is timed
     for frame in frames:
         workspace.session.cache.forget()
         times.append(step(workspace, frame))
+    workspace.session.cache.capacity = room
     return np.array(times)
 
 
