@@ -91,11 +91,11 @@ PRESETS: dict[str, RunConfig] = {
         joint_steps=240, frames_per_step=2, budget_seconds=70.0, plane_resolution=24, plane_channels=8,
         densify_every=40,
     ),
-    "standard": RunConfig(),
+    "standard": RunConfig(prior="embedded"),
     "full": RunConfig(
         preset="full", short_side=480, gaussians_per_object=15000, background_gaussians=60000, lift_steps=1000,
         joint_steps=40 * 32, frames_per_step=8, budget_seconds=math.inf, plane_resolution=64,
-        plane_levels=(1, 2, 4, 8), plane_channels=32,
+        plane_levels=(1, 2, 4, 8), plane_channels=32, prior="embedded",
     ),
 }  # fmt: skip
 
