@@ -41,19 +41,35 @@ class Edges(NamedTuple):
 
 def rigid_terms(pair: Pair, edges: Edges) -> np.ndarray:
     """(2,) float64: the mean of `rigid` and of `turn` over the rows' edges."""
-    sums = np.zeros(2)
-    turns = np.zeros((2, *pair.quats.shape), np.float32)
-    walk_edges(pair, edges, turns, np.zeros(2), sums, Pair(*(np.zeros((0, a.shape[1]), np.float32) for a in pair)))
+    sums, nothing = np.zeros(2), np.zeros((2, 0, 3), np.float32)
+    walk_edges(np.stack(pair[:2]), edges, _turns(pair), np.zeros(2), sums, nothing)
     return sums / max(len(edges.rows) * edges.others.shape[1], 1)
 
 
 def rigid_gradients(pair: Pair, edges: Edges, upstream: np.ndarray) -> Pair:
     """Gradients of upstream (2,) times `rigid_terms`."""
-    out = Pair(*(np.zeros(a.shape, np.float32) for a in pair))
-    turns = np.zeros((2, *pair.quats.shape), np.float32)
+    turns, slopes = _turns(pair), np.zeros((2, *pair.means.shape), np.float32)
     share = upstream / max(len(edges.rows) * edges.others.shape[1], 1)
-    walk_edges(pair, edges, turns, share, np.zeros(2), out)
-    return out
+    walk_edges(np.stack(pair[:2]), edges, turns, share, np.zeros(2), slopes)
+    # r = q q'^-1: the gradient of q is g q', that of q' is g^-1 q
+    back = turns[1] * np.array([1, -1, -1, -1], np.float32)
+    return Pair(slopes[0], slopes[1], _product(turns[1], pair.quats_after), _product(back, pair.quats))
+
+
+def _turns(pair: Pair) -> np.ndarray:
+    """(2, N, 4) float32: the relative rotations q q'^-1, and zeros for their gradient."""
+    found = np.zeros((2, *pair.quats.shape), np.float32)
+    found[0] = _product(pair.quats, pair.quats_after * np.array([1, -1, -1, -1], np.float32))
+    return found
+
+
+def _product(left: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """(N, 4) Hamilton products."""
+    a, b, c, d = left.T
+    w, x, y, z = right.T
+    rows = (a * w - b * x - c * y - d * z, a * x + b * w + c * z - d * y,
+            a * y - b * z + c * w + d * x, a * z + b * y - c * x + d * w)  # fmt: skip
+    return np.stack(rows, axis=1)
 
 
 @inlined
@@ -83,26 +99,22 @@ def _slope_turn(turns: np.ndarray, i: int, e: tuple, g: tuple) -> None:
 
 @kernel
 def walk_edges(
-    pair: Pair, edges: Edges, turns: np.ndarray, share: np.ndarray, sums: np.ndarray, out: Pair
+    means: np.ndarray, edges: Edges, turns: np.ndarray, share: np.ndarray, sums: np.ndarray, out: np.ndarray
 ) -> None:  # fmt: skip
-    """Add up both terms in sums (2,); where `out` has rows, add the gradient of share . terms to it.
+    """Add up both terms in sums (2,); where `out` has points, add the gradient of share . terms to it and to turns[1].
 
-    turns: (2, N, 4) float32, zero on entry: relative rotations and their gradients.
+    means, out: (2, N, 3) float32 positions before and after, and their gradient.
+    turns: (2, N, 4) float32 relative rotations and their gradient.
     """
-    slopes = out.means.shape[0] > 0
-    for i in range(pair.quats.shape[0]):
-        relative_turn(pair, turns, i)
+    slopes = out.shape[1] > 0
     for n in range(edges.rows.size):
         i = edges.rows[n]
         for k in range(edges.others.shape[1]):
             j, weight = edges.others[i, k], edges.weight[i, k]
-            x = np.float64(pair.means_after[j, 0]) - pair.means_after[i, 0]
-            y = np.float64(pair.means_after[j, 1]) - pair.means_after[i, 1]
-            z = np.float64(pair.means_after[j, 2]) - pair.means_after[i, 2]
+            x, y, z = _edge(means, 1, i, j)
             back = _turned(turns, i, 1.0, x, y, z)
-            d0 = pair.means[j, 0] - pair.means[i, 0] - back[0]
-            d1 = pair.means[j, 1] - pair.means[i, 1] - back[1]
-            d2 = pair.means[j, 2] - pair.means[i, 2] - back[2]
+            before = _edge(means, 0, i, j)
+            d0, d1, d2 = before[0] - back[0], before[1] - back[1], before[2] - back[2]
             moved = weight * (d0 * d0 + d1 * d1 + d2 * d2)
             length = math.sqrt(max_floor(moved))
             sums[0] += length
@@ -110,9 +122,16 @@ def walk_edges(
                 g = share[0] * weight / length
                 slope_edge(turns, i, j, (x, y, z), (g * d0, g * d1, g * d2), out)
             sums[1] += turn_edge(turns, i, j, weight, share[1], slopes)
-    if slopes:
-        for i in range(pair.quats.shape[0]):
-            slope_relative_turn(pair, turns, i, out)
+
+
+@inlined
+def _edge(means: np.ndarray, moment: int, i: int, j: int) -> tuple:
+    """From point i to point j, float64."""
+    return (
+        np.float64(means[moment, j, 0]) - means[moment, i, 0],
+        np.float64(means[moment, j, 1]) - means[moment, i, 1],
+        np.float64(means[moment, j, 2]) - means[moment, i, 2],
+    )
 
 
 @inlined
@@ -122,23 +141,20 @@ def max_floor(value: float) -> float:
 
 
 @inlined
-def slope_edge(turns: np.ndarray, i: int, j: int, e: tuple, g: tuple, out: Pair) -> None:
-    """Gradient g of e - R e' to both ends before and after, and to the rotation."""
+def slope_edge(turns: np.ndarray, i: int, j: int, e: tuple, g: tuple, out: np.ndarray) -> None:
+    """Gradient g of e - R e' to both ends before and after, and to the rotation; e: the edge afterwards."""
     gx, gy, gz = g
-    h = _turned(turns, i, -1.0, gx, gy, gz)
-    out.means[j, 0] += gx
-    out.means[j, 1] += gy
-    out.means[j, 2] += gz
-    out.means[i, 0] -= gx
-    out.means[i, 1] -= gy
-    out.means[i, 2] -= gz
-    out.means_after[j, 0] -= h[0]
-    out.means_after[j, 1] -= h[1]
-    out.means_after[j, 2] -= h[2]
-    out.means_after[i, 0] += h[0]
-    out.means_after[i, 1] += h[1]
-    out.means_after[i, 2] += h[2]
+    push(out, 0, j, i, g)
+    push(out, 1, i, j, _turned(turns, i, -1.0, gx, gy, gz))
     _slope_turn(turns, i, e, (-gx, -gy, -gz))
+
+
+@inlined
+def push(out: np.ndarray, moment: int, to: int, off: int, g: tuple) -> None:
+    """Add g to one point's gradient and take it off another's."""
+    for m in range(3):
+        out[moment, to, m] += g[m]
+        out[moment, off, m] -= g[m]
 
 
 @inlined
@@ -161,30 +177,3 @@ def turn_edge(turns: np.ndarray, i: int, j: int, weight: float, share: float, sl
             turns[1, j, m] += sign * d
             turns[1, i, m] -= d
     return length
-
-
-@inlined
-def relative_turn(pair: Pair, turns: np.ndarray, i: int) -> None:
-    """turns[0, i] = q q'^-1 for unit quaternions."""
-    a, b, c, d = pair.quats[i, 0], pair.quats[i, 1], pair.quats[i, 2], pair.quats[i, 3]
-    w, x, y, z = pair.quats_after[i, 0], pair.quats_after[i, 1], pair.quats_after[i, 2], pair.quats_after[i, 3]
-    turns[0, i, 0] = a * w + b * x + c * y + d * z
-    turns[0, i, 1] = b * w - a * x + d * y - c * z
-    turns[0, i, 2] = c * w - a * y + b * z - d * x
-    turns[0, i, 3] = d * w - a * z + c * x - b * y
-
-
-@inlined
-def slope_relative_turn(pair: Pair, turns: np.ndarray, i: int, out: Pair) -> None:
-    """Gradient of q q'^-1, turns[1, i], to both quaternions."""
-    a, b, c, d = pair.quats[i, 0], pair.quats[i, 1], pair.quats[i, 2], pair.quats[i, 3]
-    w, x, y, z = pair.quats_after[i, 0], pair.quats_after[i, 1], pair.quats_after[i, 2], pair.quats_after[i, 3]
-    p, q, r, s = turns[1, i, 0], turns[1, i, 1], turns[1, i, 2], turns[1, i, 3]
-    out.quats[i, 0] = p * w - q * x - r * y - s * z
-    out.quats[i, 1] = p * x + q * w + r * z - s * y
-    out.quats[i, 2] = p * y + r * w + s * x - q * z
-    out.quats[i, 3] = p * z + s * w + q * y - r * x
-    out.quats_after[i, 0] = p * a + q * b + r * c + s * d
-    out.quats_after[i, 1] = p * b - q * a - r * d + s * c
-    out.quats_after[i, 2] = p * c - r * a - s * b + q * d
-    out.quats_after[i, 3] = p * d - s * a - q * c + r * b
