@@ -28,7 +28,7 @@ from genmojo_studio.translate import tr
 from genmojo_studio.view3d.frames import FrameRequest
 from genmojo_studio.view3d.snapshot import SceneSnapshot
 from genmojo_studio.watch import differences, painting, reference
-from genmojo_studio.watch.controls import dim, row
+from genmojo_studio.watch.controls import line, row
 from genmojo_studio.watch.latest import Latest
 from genmojo_studio.watch.picture import Picture
 
@@ -92,7 +92,7 @@ class ComparePanel(QWidget):
         self.share.setRange(0, 100)
         self.share.setValue(50)
         self.share.setMaximumWidth(160)
-        self.said = dim(tr("Choose another scene, or freeze this one, and compare as it goes on."))
+        self.said = line(tr("Choose another scene, or freeze this one, and compare as it goes on."))
         self.table = QTreeWidget()
         self.table.setHeaderLabels([tr("Figure"), tr("On show"), tr("Other"), tr("Difference")])
         self.table.setRootIsDecorated(False)

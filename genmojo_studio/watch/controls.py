@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QDoubleSpinBox, QFrame, QHBoxLayout, QLabel, QScrollArea, QWidget
+from PySide6.QtWidgets import QDoubleSpinBox, QFrame, QHBoxLayout, QLabel, QScrollArea, QSizePolicy, QWidget
 
 
 def dim(text: str = "") -> QLabel:
@@ -11,6 +11,14 @@ def dim(text: str = "") -> QLabel:
     label = QLabel(text)
     label.setProperty("role", "dim")
     label.setWordWrap(True)
+    return label
+
+
+def line(text: str = "") -> QLabel:
+    """Secondary text of one line, cut where there is no room: for panels that a scroll area fits into its height."""
+    label = QLabel(text)
+    label.setProperty("role", "dim")
+    label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
     return label
 
 

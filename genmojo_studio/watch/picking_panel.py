@@ -16,7 +16,7 @@ from genmojo_studio.translate import tr
 from genmojo_studio.view3d.picking import Contributor, Pick
 from genmojo_studio.view3d.snapshot import SceneSnapshot
 from genmojo_studio.watch import plots, trajectory
-from genmojo_studio.watch.controls import dim
+from genmojo_studio.watch.controls import line
 from genmojo_studio.watch.trajectory import Trajectory
 
 _MOST_ROWS = 40
@@ -34,7 +34,7 @@ class PickingPanel(QWidget):
         self._tasks = Tasks(self)
         self._snapshot: SceneSnapshot | None = None
         self.trajectory: Trajectory | None = None
-        self.said = dim(tr("Click a place in the scene to see which Gaussians make its colour."))
+        self.said = line()
         self.list = QTreeWidget()
         self.list.setHeaderLabels([tr("Object"), tr("Share"), tr("Depth"), tr("Opacity"), tr("Number")])
         self.list.setRootIsDecorated(False)
@@ -68,12 +68,14 @@ class PickingPanel(QWidget):
         state.subscribe(self._show_frame, "frame")
         state.subscribe(self._dress, "theme")
         self._dress()
+        self.clear()
 
     def clear(self) -> None:
         """Another scene is on show."""
         self._tasks.drop()
         self._snapshot, self.trajectory = None, None
         self.list.clear()
+        self.said.setText(tr("Click a place in the scene to see which Gaussians make its colour."))
         self._draw()
         self.trajectory_changed.emit()
 

