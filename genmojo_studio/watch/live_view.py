@@ -36,10 +36,10 @@ class LiveView(SceneView):
         self._pending: SceneSnapshot | None = None
         self._sets: tuple[TrackSet, ...] = ()
         self._selected: tuple[str, int] | None = None
-        self._hint = dim(tr("No scene yet. Start a run (F5), or open a scene file."))
-        self._hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._nothing = dim(tr("No scene yet. Start a run (F5), or open a scene file."))
+        self._nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
         layout = QVBoxLayout(self)
-        layout.addWidget(self._hint)
+        layout.addWidget(self._nothing)
         self.set_input(self._clip_frame)
         self.add_overlay(self._paint_tracks)
         self.view_changed.connect(self._remember)
@@ -52,7 +52,7 @@ class LiveView(SceneView):
             self._pending = snapshot
         else:
             self.set_snapshot(snapshot)
-            self._hint.setVisible(snapshot is None)
+            self._nothing.setVisible(snapshot is None)
             self._take_time()
 
     def set_quiet(self, quiet: bool) -> None:
