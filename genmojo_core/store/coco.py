@@ -15,7 +15,6 @@ from genmojo_core.errors import GenmojoError
 from genmojo_core.store.atomic import write_bytes
 from genmojo_core.store.safe import json_text, parse_json
 from genmojo_core.store.track_sheet import TrackSheet, blank_tracks
-from genmojo_core.tracks.metrics import select
 from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
 
 _V = {NONE: 0, VISIBLE: 2, OCCLUDED: 1, OUT_OF_VIEW: 0}
@@ -87,16 +86,8 @@ def _sheet(whole: dict[str, Any]) -> TrackSheet:
             made.xy[row, t] = (x, y) if known else np.nan
     numbers = [_number(categories[owner]["keypoints"][k], k) for owner, k in pairs]
     names = {owner: str(c["name"]) for owner, c in categories.items()}
-    there = (made.state != NONE).any(axis=1)
     files = tuple(str(image["file_name"]) for image in images)
-    return _without_empty(TrackSheet(made, np.array(numbers, np.int64), names, files), there)
-
-
-def _without_empty(sheet: TrackSheet, there: np.ndarray) -> TrackSheet:
-    """Key points that no object of the category ever has are left out."""
-    if there.all() or not there.any():
-        return sheet
-    return TrackSheet(select(sheet.tracks, there), sheet.numbers[there], sheet.object_names, sheet.frame_names)
+    return TrackSheet(made, np.array(numbers, np.int64), names, files).without_empty()
 
 
 def _number(name: str, place: int) -> int:

@@ -90,8 +90,8 @@ def _sheet(arrays: dict[str, np.ndarray], size: tuple[int, int], frames: int, wh
             told = np.minimum(arrays[_STATE][k, p], OUT_OF_VIEW)
             made.state[row, :held] = np.where(made.state[row, :held] == VISIBLE, VISIBLE,
                                               np.where(told == VISIBLE, NONE, told))  # fmt: skip
-    return TrackSheet(made, np.array([numbers[p] for _, p in pairs], np.int64),
-                      {int(i): n for i, n in zip(ids, names, strict=True)})  # fmt: skip
+    named = {int(i): n for i, n in zip(ids, names, strict=True)}
+    return TrackSheet(made, np.array([numbers[p] for _, p in pairs], np.int64), named).without_empty()
 
 
 def _text(value: bytes | str) -> str:

@@ -62,4 +62,6 @@ def read(path: str | Path, size: tuple[int, int] | None = None) -> PointTracks:
     outside = ((points <= 0) | (points >= 1)).any(axis=-1)
     state = np.where(~occluded, VISIBLE, np.where(outside, OUT_OF_VIEW, OCCLUDED))
     owner = arrays.get("object", np.zeros(len(points)))
-    return PointTracks(xy, np.where(known, state, NONE).astype(np.uint8), owner.astype(np.int64), size)
+    doubt = arrays["uncertain"] if "uncertain" in arrays and arrays["uncertain"].shape == occluded.shape else None
+    flags = None if doubt is None else np.where(doubt.astype(bool), _UNCERTAIN, 0).astype(np.uint8)
+    return PointTracks(xy, np.where(known, state, NONE).astype(np.uint8), owner.astype(np.int64), size, flags=flags)

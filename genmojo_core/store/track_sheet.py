@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from genmojo_core.tracks.annotation import Annotation
+from genmojo_core.tracks.metrics import select
 from genmojo_core.tracks.model import NONE, PointTracks
 
 
@@ -42,6 +43,11 @@ class TrackSheet:
         tracks = annotation.to_tracks([i.id for i in infos])
         names = {o.id: o.name for o in annotation.objects.values()}
         return TrackSheet(tracks, np.array([i.number for i in infos], np.int64), names, frame_names)
+
+    def without_empty(self) -> TrackSheet:
+        """Only the tracks of which anything is known; formats that store grids of objects and points have others."""
+        there = (self.tracks.state != NONE).any(axis=1)
+        return TrackSheet(select(self.tracks, there), self.numbers[there], self.object_names, self.frame_names)
 
     def name_of(self, owner: int) -> str:
         """The name of an object."""

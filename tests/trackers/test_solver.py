@@ -22,7 +22,7 @@ from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE, PointTracks
 @pytest.fixture(scope="module")
 def made() -> tuple:
     """The procedural clip of two objects that cross, its solver and truth in source pixels."""
-    clip, truth = generate(replace(spec("crossing-shapes"), frames=12, novel_every=0))
+    clip, truth = generate(replace(spec("crossing-shapes"), frames=10, size=(112, 63), novel_every=0))
     return clip, points_of(truth, clip.source_size), TrackSolver(clip)
 
 
