@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable
 
 import numpy as np
-from PySide6.QtCore import QRectF, Qt, Signal
+from PySide6.QtCore import QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QColor, QImage, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
@@ -23,6 +23,7 @@ from genmojo_studio.view3d.frames import Feeder, FrameReport, FrameRequest
 from genmojo_studio.view3d.look import SCALAR_MODES, Mode
 from genmojo_studio.view3d.quality import FULL, Detail
 
+PATIENCE_MS = 1000  # the first picture takes longer where the kernels have to be compiled
 LARGEST_PIXELS = 1 << 26
 _EMPTY = QColor(16, 17, 19)
 
@@ -43,7 +44,9 @@ class CpuView(QWidget):
         self._newest: FrameRequest | None = None
         self._asked: FrameRequest | None = None
         self._finished.connect(self._show, Qt.ConnectionType.QueuedConnection)
-        self._drawer = Drawer(self._finished.emit, self.failed.emit, self.waiting.emit)
+        self._patience = QTimer(self, interval=PATIENCE_MS, singleShot=True)
+        self._patience.timeout.connect(self._tell_why)
+        self._drawer = Drawer(self._finished.emit, self.failed.emit)
         self.destroyed.connect(self._drawer.stop)
 
     def show_frame(self, request: FrameRequest) -> None:
@@ -51,6 +54,8 @@ class CpuView(QWidget):
         self._newest = request
         if not self.window().isMinimized():
             self._asked = request
+            if self._image is None and not self._patience.isActive():
+                self._patience.start()
             self._drawer.ask(request, self._device_size())
 
     def image(self, request: FrameRequest, view: View) -> np.ndarray:  # (H, W, 4) uint8
@@ -85,11 +90,19 @@ class CpuView(QWidget):
 
     def _show(self, pixels: np.ndarray, report: FrameReport) -> None:
         """A picture is ready."""
+        if self._image is None:
+            self._patience.stop()
+            self.waiting.emit("")
         height, width = pixels.shape[:2]
         self._pixels = pixels
         self._image = QImage(pixels.data, width, height, 3 * width, QImage.Format.Format_RGB888)
         self.update()
         self.drawn.emit(report)
+
+    def _tell_why(self) -> None:
+        """The first picture is late: kernels are compiled where they never ran before."""
+        if self._image is None:
+            self.waiting.emit(tr("Preparing the drawing kernels, once on this computer …"))
 
     def _device_size(self) -> tuple[int, int]:
         """Pixels of the screen under this widget."""
@@ -100,10 +113,8 @@ class CpuView(QWidget):
 class Drawer:
     """The thread: one request waits at most. Knows no widget."""
 
-    def __init__(
-        self, finished: Callable[..., None], failed: Callable[..., None], waiting: Callable[[str], None]
-    ) -> None:
-        self._finished, self._failed, self._waits = finished, failed, waiting
+    def __init__(self, finished: Callable[..., None], failed: Callable[..., None]) -> None:
+        self._finished, self._failed = finished, failed
         self._painter, self._feeder, self._detail = CpuPainter(), Feeder(), Detail()
         self._busy = threading.Lock()  # the painter
         self._wake = threading.Condition()
@@ -158,23 +169,11 @@ class Drawer:
                     return
                 (request, size), self._waiting = self._waiting, None
             try:
-                cold = not self._warm and self._tell_if_cold()
                 pixels, report = self._draw(request, size)
             except (GenmojoError, ImportError, MemoryError, RuntimeError) as error:
                 self._tell(self._failed, str(error).splitlines()[0] or type(error).__name__)
                 continue
             self._tell(self._finished, pixels, report)
-            if cold:
-                self._tell(self._waits, "")
-
-    def _tell_if_cold(self) -> bool:
-        """Say that kernels have to be compiled first, where that is so."""
-        from genmojo_core.kernels.cache import is_cold  # loads numba: only here, on the thread
-
-        cold = is_cold()
-        if cold:
-            self._tell(self._waits, tr("Preparing the drawing kernels, once on this computer …"))
-        return cold
 
     def _tell(self, emit: Callable[..., None], *values: object) -> None:
         """Emit a signal unless its widget is gone."""

@@ -42,6 +42,8 @@ class Overlay(QWidget):
         self.report: FrameReport | None = None
         self.paints: list[Paint] = []
         self.message = ""  # a banner, e.g. why the processor draws
+        self.waiting = ""  # why there is no picture yet
+        self.hint = ""  # how to move about, for a moment
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         """Everything over the newest frame, by the camera that frame was drawn with."""
@@ -58,8 +60,10 @@ class Overlay(QWidget):
             if self.has_gizmo():
                 paint_gizmo(painter, self.gizmo_rect(), axes_of(self.report))
             self._paint_legend(painter)
-        if self.message:
-            plate(painter, [self.message], QPointF(_MARGIN, self.height() - _MARGIN), _WARN, bottom=True)
+        text = self.waiting or self.message or self.hint
+        if text:
+            ink = _INK if text == self.hint else _WARN
+            plate(painter, [text], QPointF(_MARGIN, self.height() - _MARGIN), ink, bottom=True)
         painter.end()
 
     def has_gizmo(self) -> bool:

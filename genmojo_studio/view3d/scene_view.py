@@ -32,6 +32,7 @@ REST_MS = 180  # after the last movement for so long, full detail is drawn
 TURN_MS = 350  # an animated change of view
 _CLICK_PIXELS = 4
 SOFT_BANNER_MS = 8000  # news that changes nothing goes away by itself
+HINT_MS = 12000  # so does the hint at how to move about, or with the first press
 
 
 class SceneView(QWidget):
@@ -58,6 +59,7 @@ class SceneView(QWidget):
         self._orbit = Orbit()
         self._time = 0.0
         self._held: float | None = None
+        self._has_hinted = False
         self._input: Callable[[int], np.ndarray | None] | None = None
         self._press: tuple[QPointF, QPointF] | None = None  # where it began, where the mouse was last
         self._rest = QTimer(self, interval=REST_MS, singleShot=True)
@@ -212,6 +214,7 @@ class SceneView(QWidget):
             self.preset(preset)
             return
         self._turn.stop()
+        self._hint("")
         self._press = (event.position(), event.position())
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
@@ -285,7 +288,7 @@ class SceneView(QWidget):
         surface.setGeometry(self.rect())
         surface.drawn.connect(self._drawn)
         if isinstance(surface, CpuView):
-            surface.waiting.connect(self.set_message)
+            surface.waiting.connect(self._waits)
         surface.failed.connect(self._failed, Qt.ConnectionType.QueuedConnection)  # never within a paint event
         surface.show()
         self.overlay.raise_()
@@ -306,9 +309,23 @@ class SceneView(QWidget):
     def _drawn(self, report: FrameReport) -> None:
         """A frame is on the screen."""
         if self._snapshot is not None:
+            if self.overlay.report is None and not self._has_hinted:
+                self._has_hinted = True
+                self._hint(tr("Drag to turn, Shift+drag to move, wheel to go nearer; click to ask what is there"))
+                QTimer.singleShot(HINT_MS, self, lambda: self._hint(""))
             self.overlay.report = report
             self.overlay.update()
             self.frame_drawn.emit(report)
+
+    def _waits(self, text: str) -> None:
+        """The first picture takes long, or is there: what the banner said before comes back."""
+        self.overlay.waiting = text
+        self.overlay.update()
+
+    def _hint(self, text: str) -> None:
+        """Show or clear how to move about."""
+        self.overlay.hint = text
+        self.overlay.update()
 
     def _turned(self, share: float) -> None:
         """One step of an animated turn."""

@@ -84,7 +84,7 @@ def test_the_newest_wish_is_drawn_last_and_few_are_drawn_in_between() -> None:
         if report.request.orbit.azimuth == 39:
             done.set()
 
-    drawer = Drawer(finished, pytest.fail, lambda text: None)
+    drawer = Drawer(finished, pytest.fail)
     for k in range(40):
         drawer.ask(FrameRequest(snapshot, reference_of(snapshot), Orbit(azimuth=float(k)), Look(), 0.0), (80, 60))
     assert done.wait(30)
@@ -101,7 +101,7 @@ def test_the_newest_wish_is_drawn_last_and_few_are_drawn_in_between() -> None:
 def test_errors_of_the_kernels_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
     told = threading.Event()
     reasons = []
-    drawer = Drawer(lambda *_: None, lambda reason: (reasons.append(reason), told.set()), lambda text: None)
+    drawer = Drawer(lambda *_: None, lambda reason: (reasons.append(reason), told.set()))
     monkeypatch.setattr(CpuPainter, "picture", lambda *_: (_ for _ in ()).throw(RuntimeError("no kernels\nhere")))
     snapshot = random_snapshot(3)
     drawer.ask(FrameRequest(snapshot, reference_of(snapshot), Orbit(), Look(), 0.0), (20, 20))
@@ -124,16 +124,3 @@ def test_less_detail_is_smaller_and_similar() -> None:
     low = painter.picture(view, Look(), None, Quality(2, 0.5)).sums
     assert low.shape == (60, 80, 4)
     assert decibels(low[..., :3], full.reshape(60, 2, 80, 2, 4).mean((1, 3))[..., :3]) > 18
-
-
-def test_the_first_picture_on_a_computer_says_why_it_takes_long(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("genmojo_core.kernels.cache.is_cold", lambda: True)
-    texts, ended = [], threading.Event()
-    drawer = Drawer(lambda *_: None, pytest.fail, lambda text: (texts.append(text), text or ended.set()))
-    snapshot = random_snapshot(3)
-    for _ in range(2):
-        drawer.ask(FrameRequest(snapshot, reference_of(snapshot), Orbit(), Look(), 0.0), (20, 20))
-        assert ended.wait(60)
-    drawer.stop()
-    assert len(texts) == 2
-    assert "once on this computer" in texts[0]

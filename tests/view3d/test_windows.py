@@ -79,6 +79,13 @@ def test_a_driver_that_fails_while_drawing(display: str) -> None:
     assert answer["left"] == []
 
 
+def test_a_late_first_picture_is_explained(display: str) -> None:
+    answer = run_window(display, "xcb_glx", "late")
+    assert len(answer["texts"]) == 2
+    assert "once on this computer" in answer["texts"][0]
+    assert answer["left_on_screen"] == answer["texts"][1] == ""
+
+
 def _check_life(answer: dict, surface: str) -> None:
     assert answer["surface"] == surface
     assert answer["screen_is_screenshot"] >= 50

@@ -50,9 +50,11 @@ class Watched:
 
 
 def wait(done: Callable[[], bool]) -> None:
+    """Until something is so. qWait keeps Python's lock, so that other threads run in the sleep only."""
     end = time.monotonic() + LIMIT_S
     while not done():
-        QTest.qWait(5)
+        QTest.qWait(1)
+        time.sleep(0.004)
         if time.monotonic() > end:
             raise TimeoutError("nothing was drawn")
 
@@ -254,6 +256,26 @@ def broken(_: int) -> dict:
     return answer
 
 
+def late(_: int) -> dict:
+    """A first picture that takes long (kernels are compiled) is explained while it does."""
+    view = SceneView(engine="cpu")
+    watched = Watched(view)
+    texts = []
+    view.surface.waiting.connect(texts.append)
+    draw = CpuPainter.picture
+
+    def slowly(self: CpuPainter, *args: object) -> object:
+        time.sleep(1.5)
+        return draw(self, *args)
+
+    CpuPainter.picture = slowly
+    view.resize(200, 150)
+    view.set_snapshot(the_scene())
+    watched.after(view.show)
+    view.close()
+    return {"texts": texts, "left_on_screen": view.overlay.waiting}
+
+
 def main() -> None:
     application = make_application()
     case, count = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 0
@@ -264,7 +286,7 @@ def main() -> None:
     elif case == "processor":
         answer = life("cpu")
     else:
-        answer = {"docks": docks, "previews": previews, "missing": missing, "broken": broken}[case](count)
+        answer = {"docks": docks, "previews": previews, "missing": missing, "broken": broken, "late": late}[case](count)
     answer["probe"] = probe().name
     answer["left"] = [t.name for t in threading.enumerate() if t.name.startswith("splat")]
     print(json.dumps(answer))
