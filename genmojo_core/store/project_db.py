@@ -11,6 +11,7 @@ import queue
 import sqlite3
 import threading
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
@@ -93,11 +94,8 @@ class Writer:
                 self._commit(connection, jobs)
                 if not more:
                     break
-            with connection:
-                connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
-        except sqlite3.Error as error:
-            self._tell(error)
         finally:
+            _leave_one_file(connection)
             connection.close()
 
     def _commit(self, connection: sqlite3.Connection, jobs: list[_Job]) -> None:
@@ -127,21 +125,36 @@ class Writer:
                                       "free some space or save a copy elsewhere"))  # fmt: skip
 
 
-def connect(path: Path, read_only: bool = False) -> sqlite3.Connection:
-    """A connection with the durability a project needs. Raises GenmojoError("io", "format")."""
+def connect(path: Path) -> sqlite3.Connection:
+    """A connection for writing, with the durability a project needs. Raises GenmojoError("format")."""
     try:
-        if read_only:
-            connection = sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True, isolation_level=None,
-                                         check_same_thread=False)  # fmt: skip
-        else:
-            connection = sqlite3.connect(path, isolation_level=None, check_same_thread=False)
-            connection.execute(f"PRAGMA journal_mode={'DELETE' if is_remote(path) else 'WAL'}")
-            connection.execute("PRAGMA synchronous=FULL")
+        connection = sqlite3.connect(path, isolation_level=None, check_same_thread=False)
+        connection.execute(f"PRAGMA journal_mode={'DELETE' if is_remote(path) else 'WAL'}")
+        connection.execute("PRAGMA synchronous=FULL")
         connection.execute("PRAGMA busy_timeout=5000")
         connection.execute("PRAGMA trusted_schema=OFF")
         return connection
     except sqlite3.DatabaseError as error:
         raise GenmojoError("format", f"is no project file or cannot be opened ({error})", str(path)) from error
+
+
+def connect_to_read(path: Path) -> sqlite3.Connection:
+    """A connection for reading, which leaves the file as it is but for what a dead program left to be replayed.
+
+    Raises GenmojoError("io") if it cannot be opened.
+    """
+    options = "mode=rw"
+    if not os.access(path.parent, os.W_OK):
+        pending = path.with_name(path.name + "-wal").exists()
+        options = "mode=ro" if pending else "mode=ro&immutable=1"  # WAL needs a folder that can be written to
+    try:
+        connection = sqlite3.connect(f"{path.absolute().as_uri()}?{options}", uri=True, isolation_level=None,
+                                     check_same_thread=False)  # fmt: skip
+        connection.execute("PRAGMA busy_timeout=5000")
+        connection.execute("PRAGMA trusted_schema=OFF")
+        return connection
+    except sqlite3.Error as error:
+        raise GenmojoError("io", f"cannot be opened ({error})", str(path), "check the permissions") from error
 
 
 def make_tables(connection: sqlite3.Connection) -> None:
@@ -178,6 +191,16 @@ def is_remote(path: Path) -> bool:
     found = [line.split()[1:3] for line in mounts.read_text(errors="replace").splitlines() if len(line.split()) > 2]
     over = [(len(place), kind) for place, kind in found if text == place or text.startswith(place.rstrip("/") + "/")]
     return max(over, default=(0, ""))[1] in _REMOTE
+
+
+def _leave_one_file(connection: sqlite3.Connection) -> None:
+    """Fold the write-ahead log into the file, so that it may be copied or put where nobody can write.
+
+    Another program that reads just now prevents it; then the log stays beside the file, which is sound too.
+    """
+    with suppress(sqlite3.Error):
+        connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+        connection.execute("PRAGMA journal_mode=DELETE")
 
 
 def take_lock(path: Path) -> IO[bytes] | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sqlite3
 from collections.abc import Sequence
 from contextlib import closing
@@ -16,7 +15,7 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.atomic import staged
 from genmojo_core.store.edit_codec import decode_annotation, decode_edit, decode_proposal, encode_edit
-from genmojo_core.store.project_db import Statement, check_file, connect, make_tables
+from genmojo_core.store.project_db import Statement, check_file, connect, connect_to_read, make_tables
 from genmojo_core.store.project_log import COLUMNS, ROOT, Log, Row
 from genmojo_core.tracks.annotation import Annotation, TrackInfo
 from genmojo_core.tracks.edits import Edit, TrackChange
@@ -80,7 +79,7 @@ def load(path: Path) -> Loaded:
     """The newest state of a project. Raises GenmojoError: "io", "format", "version", "corrupt"."""
     if not path.is_file():
         raise GenmojoError("io", "does not exist or is no file", str(path), "check the name")
-    with closing(_reader(path)) as connection:
+    with closing(connect_to_read(path)) as connection:
         check_file(connection, path)
         try:
             return _loaded(connection, path)
@@ -92,7 +91,7 @@ def load(path: Path) -> Loaded:
 def verify(path: Path) -> list[str]:
     """Faults of a project: rows whose hash does not continue the chain. Raises as `load`."""
     faults = []
-    with closing(_reader(path)) as connection:
+    with closing(connect_to_read(path)) as connection:
         check_file(connection, path)
         previous = b""
         for *columns, payload, stored in connection.execute(f"SELECT {COLUMNS}, payload, hash FROM edits ORDER BY seq"):
@@ -105,13 +104,13 @@ def verify(path: Path) -> list[str]:
 
 def edits(path: Path, rows: Sequence[Row]) -> dict[int, Edit]:
     """Data of some edits by sequence number."""
-    with closing(_reader(path)) as connection:
+    with closing(connect_to_read(path)) as connection:
         return {row.seq: _edit(connection, row) for row in rows}
 
 
 def blob(path: Path, name: str) -> bytes | None:
     """Bytes kept under a name."""
-    with closing(_reader(path)) as connection:
+    with closing(connect_to_read(path)) as connection:
         found = connection.execute("SELECT data FROM blobs WHERE name = ?", (name,)).fetchone()
         return bytes(found[0]) if found else None
 
@@ -148,7 +147,7 @@ def copy(path: Path, target: Path, more: Sequence[Statement] = ()) -> None:
     """A consistent copy of a project that may be open, with further statements. Raises GenmojoError("io")."""
     with staged(target) as part:
         try:
-            with closing(_reader(path)) as source, closing(sqlite3.connect(part, isolation_level=None)) as made:
+            with closing(connect_to_read(path)) as source, closing(sqlite3.connect(part, isolation_level=None)) as made:
                 source.backup(made)
                 made.execute("PRAGMA journal_mode=DELETE")
                 for sql, values in more:
@@ -174,11 +173,6 @@ def back_up(path: Path) -> Path:
 def backups(path: Path) -> list[Path]:
     """Backup copies of a project, newest first."""
     return sorted(path.with_name(path.name + ".backups").glob("*.genmojo"), reverse=True)
-
-
-def _reader(path: Path) -> sqlite3.Connection:
-    """A connection for reading. Where a dead program left a journal to be replayed, that needs write access."""
-    return connect(path, read_only=not os.access(path.parent, os.W_OK))
 
 
 def _loaded(connection: sqlite3.Connection, path: Path) -> Loaded:

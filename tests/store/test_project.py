@@ -150,6 +150,20 @@ def test_the_second_program_may_look_but_not_write(tmp_path: Path) -> None:
     third.close()
 
 
+def test_a_closed_project_is_one_file_and_opens_where_nobody_can_write(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    project = begun(tmp_path / "p.genmojo")
+    expected = project.annotation.digest()
+    project.close()
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["p.genmojo", "p.genmojo.lock"]
+    before = (tmp_path / "p.genmojo").read_bytes()
+    monkeypatch.setattr("os.access", lambda path, mode: False)
+    assert project_file.load(tmp_path / "p.genmojo").annotation.digest() == expected
+    assert (tmp_path / "p.genmojo").read_bytes() == before
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["p.genmojo", "p.genmojo.lock"]
+
+
 def test_proposals_are_kept_untouched(tmp_path: Path) -> None:
     project = begun(tmp_path / "p.genmojo")
     rng = np.random.default_rng(1)
