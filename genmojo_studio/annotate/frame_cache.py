@@ -66,7 +66,9 @@ class FrameCache(QObject):
             self._target = frame
             self.generation += 1
             self._changed.notify_all()
-            return self.generation
+        if frame in self._bad:  # whoever asks is told, however often
+            self._say(self.failed, frame, self._bad[frame])
+        return self.generation
 
     def pin(self, frames: list[int]) -> None:
         """Frames that are wanted besides the target (loupe, strip) and stay while they are pinned."""

@@ -8,6 +8,7 @@ from PySide6.QtCore import QObject
 from genmojo_core.tracks.model import NONE
 from genmojo_studio.annotate.canvas import Canvas
 from genmojo_studio.annotate.loupe import Source
+from genmojo_studio.annotate.overlay import Picture
 from genmojo_studio.annotate.presenter import Presenter
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.snap import snapped
@@ -27,6 +28,7 @@ class Screen(QObject):
         session.shown.connect(self.refresh)
         session.edited.connect(self._edited)
         session.cache.arrived.connect(self._arrived)
+        session.cache.failed.connect(self._failed)
         canvas.hovered.connect(self._hovered)
 
     def show_frame(self, frame: int) -> None:
@@ -76,6 +78,13 @@ class Screen(QObject):
     def _arrived(self, frame: int, _generation: int) -> None:
         if frame == self._session.frame:
             self._paint(frame)
+
+    def _failed(self, frame: int, sentence: str) -> None:
+        """A frame that cannot be read is said, not shown as another one."""
+        if frame == self._session.frame:
+            self.painted = -1
+            self._canvas.show_frame(None, Picture())
+            self._session.said.emit(sentence)
 
     def _edited(self, touched: object) -> None:
         if getattr(touched, "objects", None):

@@ -14,6 +14,7 @@ from genmojo_core.tracks.annotation import CONFIRMED, KEY, Annotation
 from genmojo_core.tracks.model import NONE
 from genmojo_studio.translate import mark, tr
 
+MANY = 100
 Gate = Callable[[Annotation, int, int], str]
 
 
@@ -48,7 +49,11 @@ def _points_missing(annotation: Annotation, points: int, stride: int) -> str:
     lacking = sum(max(0, points - len(annotation.tracks_of(o.id))) for o in annotation.chosen_objects())
     if lacking or not annotation.tracks:
         return tr("{n} points are still to be placed.").format(n=lacking or points)
-    blank = sum(bool((annotation.track(t).state == NONE).any()) for t in annotation.tracks)
+    blank = 0
+    for track in annotation.tracks:
+        blank += bool((annotation.track(track).state == NONE).any())
+        if blank >= MANY:
+            return tr("More than {n} tracks are not seeded.").format(n=MANY)
     return tr("{n} tracks are not seeded.").format(n=blank) if blank else ""
 
 
@@ -61,6 +66,8 @@ def _refine_missing(annotation: Annotation, points: int, stride: int) -> str:
     for track, info in annotation.tracks.items():
         if not info.locked:
             open_frames += int(((annotation.track(track).flags[frames] & (KEY | CONFIRMED)) == 0).sum())
+        if open_frames >= 10 * MANY:  # said after every edit: never a walk through millions of cells
+            return tr("More than {n} points in frames of the stride are not accepted.").format(n=10 * MANY)
     return tr("{n} points in frames of the stride are not accepted.").format(n=open_frames) if open_frames else ""
 
 
