@@ -38,7 +38,7 @@ def shipped():
 
 @pytest.fixture(scope="module")
 def figures(shipped):
-    return table(shipped.volume, objects=12)
+    return table(shipped.volume, objects=20)
 
 
 def test_a_uniform_ball_of_fog_is_rendered_by_the_formula():
