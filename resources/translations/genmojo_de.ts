@@ -1200,6 +1200,14 @@
       <translation>Gemeinsam</translation>
     </message>
     <message>
+      <source>More than {n} tracks are not seeded.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>More than {n} points in frames of the stride are not accepted.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>Stabilised strip of the active point</source>
       <translation>Stabilisierter Streifen des aktiven Punkts</translation>
     </message>
@@ -1570,6 +1578,10 @@
     <message>
       <source>OpenGL is emulated here: the processor draws directly, which is faster.</source>
       <translation>OpenGL wird hier nachgeahmt: der Prozessor zeichnet direkt, das ist schneller.</translation>
+    </message>
+    <message>
+      <source>Drag to turn, Shift+drag to move, wheel to go nearer; click to ask what is there</source>
+      <translation>Ziehen dreht, Umschalt+Ziehen verschiebt, das Rad holt näher; ein Klick fragt, was dort ist</translation>
     </message>
     <message>
       <source>The view cannot be drawn: {reason}</source>
