@@ -1201,11 +1201,11 @@
     </message>
     <message>
       <source>More than {n} tracks are not seeded.</source>
-      <translation type="unfinished" />
+      <translation>Mehr als {n} Spuren haben keinen Vorschlag.</translation>
     </message>
     <message>
       <source>More than {n} points in frames of the stride are not accepted.</source>
-      <translation type="unfinished" />
+      <translation>Mehr als {n} Punkte in Bildern der Schrittweite sind nicht angenommen.</translation>
     </message>
     <message>
       <source>Stabilised strip of the active point</source>
