@@ -68,10 +68,10 @@ class RefinePage(QWidget):
             if info is None:
                 continue
             where = f"{spot.first}–{spot.last}" if spot.last > spot.first else str(spot.first)
-            text = f"{self._session.title(info.object, info.number)}   {where}   {', '.join(spot.reasons[:2])}"
+            text = f"{self._session.title(info.object, info.number)}   {where}   {', '.join(map(tr, spot.reasons[:2]))}"
             item = QListWidgetItem(text, self.queue)
             item.setData(Qt.ItemDataRole.UserRole, spot)
-            item.setToolTip("\n".join(spot.reasons))
+            item.setToolTip("\n".join(map(tr, spot.reasons)))
         self.refresh()
 
     def refresh(self) -> None:
@@ -93,7 +93,8 @@ class RefinePage(QWidget):
         spot = spot_at(self.spots, track, session.frame)
         info = session.annotation.tracks[track]
         reason = f"{tr('Reviewer')}: {info.reason} {info.note}".strip() if info.review == "needs_fix" else ""
-        self.why.setText("; ".join(filter(None, (reason, *(spot.reasons[:2] if spot else ())))) or tr("nothing"))
+        doubts = map(tr, spot.reasons[:2]) if spot else ()
+        self.why.setText("; ".join(filter(None, (reason, *doubts))) or tr("nothing"))
         if not self.note.hasFocus():
             self.note.setText(info.note)
 
