@@ -192,8 +192,8 @@ def test_an_object_that_cannot_be_followed_does_not_spoil_the_others(clip: Clip,
 
     solved = run_module.initial_motion
 
-    def spoiled(given: Clip) -> list:
-        motions = solved(given)
+    def spoiled(given: Clip, **options: object) -> list:
+        motions = solved(given, **options)
         return [replace(motions[0], pose=motions[0].pose * np.nan), *motions[1:]]
 
     monkeypatch.setattr(run_module, "initial_motion", spoiled)
