@@ -74,11 +74,12 @@ def main() -> None:
         Path(request.run_dir).mkdir()
         rows = {"off": [], "live": []}
         with watched(None) as window:
+            pin(0, 0)  # a worker begins on its parent's cores, with all threads it will ever have
             window.client.start(request)
-            pin(window.client._process.pid, 0)
+            pin(0, 1)
             window.until(lambda: window.steps() >= 20, 600)
-            for _ in range(args.turns):
-                for cadence in rows:
+            for i in range(args.turns):
+                for cadence in list(rows) if i % 2 == 0 else list(rows)[::-1]:  # so that slow drift cancels
                     rows[cadence].append(turn(window, cadence, args.steps))
             previews = len(window.snapshots)
             beat = window.client.beat
