@@ -99,8 +99,9 @@ _VIEW = (
     _action("view.one", "One to one", "0", "One pixel of the clip per pixel of the screen."),
     _action("view.in", "Zoom in", "+ =", "About the middle of the frame."),
     _action("view.out", "Zoom out", "-", "About the middle of the frame."),
-    _action("view.follow", "View follows the point", "L", "Keeps the point in the middle.", checkable=True,
-            cvat="Shift+L"),
+    _action(
+        "view.follow", "View follows the point", "L", "Keeps the point in the middle.", checkable=True, cvat="Shift+L"
+    ),
     _action("view.loupe", "Loupe while held", "Z", "Now, the key before, the first frame and the difference."),
     _action("view.loupe_stay", "Loupe", "Shift+Z", "Keeps the loupe open.", checkable=True),
     _action("view.hide", "Hide what is drawn while held", "H", "Shows the bare frame.", blender="Shift+Alt+Z"),

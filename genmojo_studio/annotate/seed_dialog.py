@@ -252,5 +252,3 @@ class _PathLine(QWidget):
             chosen = QFileDialog.getExistingDirectory(self, self.line.placeholderText(), self.text())
         if chosen:
             self.line.setText(chosen)
-
-
