@@ -89,7 +89,8 @@ def contrast(first: str, second: str) -> float:
 def apply(application: QApplication, theme: str) -> None:
     """Dresses the whole application in a theme."""
     table = colours(theme)
-    application.setStyle("Fusion")
+    if not application.styleSheet():  # once: every widget is dressed anew by each of these calls
+        application.setStyle("Fusion")
     application.setPalette(_palette(table))
     application.setStyleSheet(_style_sheet(table))
 
