@@ -108,8 +108,9 @@ def _picture(request: ExportRequest, scene: BakedScene) -> dict[str, Any]:
         view = key_view(key, view.resized(int(width), int(height)))
         view = replace(view, fx=view.fy)  # a view's pixels are square, whatever the clip's are
     (shot,) = film.sized([Shot(view, float(request.frame))], request.short_side)
-    look = Look(request.objects_only or request.transparent, True, shot.view if request.mode == "flow" else None,
-                request.mode == "normal")  # fmt: skip
+    flow_to = shot.view if request.mode == "flow" else None
+    objects_only = request.objects_only or request.transparent
+    look = Look(objects_only=objects_only, flow_to=flow_to, normals=request.mode == "normal")
     drawn = render_frame(scene, request.frame, shot.view, look)
     write_bytes(request.output, encode_png(film.picture_of(scene, drawn, request.mode, request.transparent)))
     return {"path": request.output, "files": [request.output]}
