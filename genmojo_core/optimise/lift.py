@@ -135,7 +135,7 @@ def _within_masks(clip: Clip, k: int, motion: Moves, xyz: np.ndarray, frames: li
         surely_free = cv2.erode(free[t].astype(np.uint8), near, borderValue=1) > 0
         xy, _ = project(_bent(motion, t, xyz) @ motion.pose[t, :3, :3].T + motion.pose[t, :3, 3],
                         clip.cameras.value.view(t))  # fmt: skip
-        inside = ((xy >= 0) & (xy < clip.size)).all(axis=1)
+        inside = np.all((xy >= 0) & (xy < clip.size), axis=1)
         column, row = np.where(inside[:, None], xy, 0).astype(int).T
         against += inside & surely_free[row, column]
     return 2 * against <= asked

@@ -342,9 +342,9 @@ class ObjectSolver:
             return contained
         points = surface.points[surface.grid.inside]
         height, width = layer.mask.shape[1:]
-        for t in np.nonzero(self.seen)[0]:
+        for t in map(int, np.nonzero(self.seen)[0]):
             xy = project(self.surfaces.cameras, t, path.between(self.ref, t, points))
-            inside = ((xy >= 0) & (xy < [width, height])).all(axis=1)
+            inside = np.all((xy >= 0) & (xy < [width, height]), axis=1)
             column, row = np.where(inside[:, None], xy, 0).astype(np.int64).T
             may = ~inside | layer.mask[t, row, column] | layer.other[t, row, column]
             contained[t] = min(1.0, 2.0 * float(may.mean()))
