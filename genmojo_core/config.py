@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any, Literal
 
@@ -58,6 +59,7 @@ class RunConfig:
     joint_steps: int = 700  # joint steps over all frames
     frames_per_step: int = 3  # frames splatted per joint step
     budget_seconds: float = 600.0  # the run ends here at the latest, with what it has
+    until: str = ""  # it ends before that once this holds: "psnr>=26" or "gain<0.1dB/min" (`goal_of`)
     motion_bases: int = 10
     plane_resolution: int = 48  # spatial nodes of the coarse K-plane level
     plane_levels: tuple[int, ...] = (1, 2)
@@ -118,6 +120,31 @@ def preset(name: str, **changes: Any) -> RunConfig:
     return config
 
 
+@dataclass(frozen=True)
+class Goal:
+    """When a run has done enough: held-out PSNR reached, or the next minute's expected gain below.
+
+    Args:
+        kind: "psnr" (at least, dB) or "gain" (less than, dB per minute).
+        value: the limit.
+    """
+
+    kind: str
+    value: float
+
+
+def goal_of(text: str) -> Goal | None:
+    """The goal a text names ("psnr>=26", "gain<0.1dB/min"); None for none. Raises GenmojoError("config")."""
+    if not text.strip():
+        return None
+    number = r"([0-9]*\.?[0-9]+)"
+    for kind, pattern in (("psnr", rf"psnr>={number}(?:db)?"), ("gain", rf"gain<{number}db/min")):
+        match = re.fullmatch(pattern, re.sub(r"\s+", "", text).lower())
+        if match:
+            return Goal(kind, float(match[1]))
+    raise GenmojoError("config", f"'{text}' is no goal", "--until", 'write "psnr>=26" or "gain<0.1dB/min"')
+
+
 _RANGES: dict[str, tuple[float, float]] = {
     "short_side": (16, 4096),
     "gaussians_per_object": (16, 200_000),
@@ -164,6 +191,10 @@ def _faults(config: RunConfig) -> list[str]:
         faults.append(f"there is no prior mode '{config.prior_mode}', only {', '.join(PRIOR_MODES)}")
     if config.method not in METHODS:
         faults.append(f"there is no method '{config.method}', only {', '.join(METHODS)}")
+    try:
+        goal_of(config.until)
+    except GenmojoError as error:
+        faults.append(f"{error.what}: {error.hint}")
     known = ("depth", "cameras", "flow", "background", "tracks")
     faults += [f"cannot ignore '{name}', only {', '.join(known)}" for name in config.ignore if name not in known]
     return faults

@@ -97,7 +97,7 @@ class Checkpointed(Event):
 
 @dataclass(frozen=True)
 class Finished(Event):
-    """The run is over and the scene stands. `reason`: done, budget or interrupted."""
+    """The run is over and the scene stands. `reason`: done, goal, budget or interrupted."""
 
     step: int
     reason: str

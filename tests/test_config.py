@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from genmojo_core import conventions
-from genmojo_core.config import PRESETS, preset
+from genmojo_core.config import PRESETS, Goal, goal_of, preset
 from genmojo_core.errors import GenmojoError
 from genmojo_core.events import Step
 
@@ -28,6 +28,15 @@ def test_all_faults_are_told_together() -> None:
     for part in ("short_side is -3", "motion_bases is 0", "cannot ignore 'sound'", "no prior 'sketch'"):
         assert part in caught.value.sentence()
     assert "\n" not in caught.value.sentence()
+
+
+def test_goals_are_read_as_a_person_writes_them() -> None:
+    assert goal_of("") is None
+    assert goal_of("psnr>=26") == goal_of(" PSNR >= 26.0 dB ") == Goal("psnr", 26.0)
+    assert goal_of("gain<0.1dB/min") == goal_of("gain < .1 dB/min") == Goal("gain", 0.1)
+    for wrong in ("psnr>26", "gain<0.1", "psnr>=", "ssim>=0.9"):
+        with pytest.raises(GenmojoError, match="no goal"):
+            preset("draft", until=wrong)
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, "many", 0])

@@ -90,6 +90,8 @@ def add_config_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--size", type=int, metavar="PX", help="short side of the frames while optimising")
     parser.add_argument("--budget", type=seconds, metavar="60s", help="end after this time with what stands")
+    parser.add_argument("--until", metavar="GOAL", help='end once this holds: "psnr>=26" (held out, dB) or '
+                        '"gain<0.1dB/min" (expected of the next minute)')  # fmt: skip
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--device", default="auto", help="auto, cpu or cuda")
     parser.add_argument("--prior", metavar="embedded|none|zero123:DIR",
@@ -103,7 +105,9 @@ def config_changes(args: argparse.Namespace) -> dict[str, Any]:
     """What the options change in a preset."""
     changes: dict[str, Any] = {"seed": args.seed, "device": args.device, "ignore": args.ignore}
     changes |= {
-        name: getattr(args, name) for name in ("prior", "prior_mode", "method") if getattr(args, name) is not None
+        name: getattr(args, name)
+        for name in ("prior", "prior_mode", "method", "until")
+        if getattr(args, name) is not None
     }
     if args.size is not None:
         changes["short_side"] = args.size

@@ -6,10 +6,11 @@ import math
 import time
 from typing import Any
 
-from genmojo_core.config import RunConfig
+from genmojo_core.config import RunConfig, goal_of
 from genmojo_core.events import Step
+from genmojo_core.optimise.gain import StopRule
 from genmojo_core.optimise.objective import Outcome
-from genmojo_core.optimise.schedule import Stage
+from genmojo_core.optimise.schedule import OUTWARD_SHARE, Stage
 
 CURVE_EVERY = 20  # steps between points of the curve
 
@@ -64,6 +65,8 @@ class Progress:
         self._stage = stages[0]
         self._stage_step = 0
         self._saved_at = 0.0
+        self._goal = goal_of(config.until)
+        self._rule = StopRule()
 
     def begin(self, stage: Stage) -> int:
         """Enter a stage; returns the step within it to go on from (not 0 after a resume)."""
@@ -98,6 +101,17 @@ class Progress:
     def out_of_time(self, clock: Clock) -> bool:
         """True once the budget is spent."""
         return clock.this_run() >= self.config.budget_seconds
+
+    def goal_reached(self) -> bool:
+        """True once the goal of the configuration holds. Nothing is judged before all frames take part."""
+        joint = self._stage is self.stages[-1] and self._stage_step >= OUTWARD_SHARE * self._stage.steps
+        if self._goal is None or not joint:
+            return False
+        if self._goal.kind == "psnr":
+            return self.psnr() >= self._goal.value
+        settled = self.step - self._stage_step + OUTWARD_SHARE * self._stage.steps
+        rows = [(row["seconds"], row["psnr_held_out"]) for row in self.curve if row["step"] >= settled]
+        return self._rule.reached(rows, self._goal.value)
 
     def event(self, clock: Clock, gaussians: int) -> Step:
         """The step just done, as an event."""

@@ -89,6 +89,7 @@ class Run:
         self.clock = Clock()
         self.progress = Progress(config, stages(config, len(clip)), len(clip))
         self.stopped = False
+        self.goal = False
         self.unseen: UnseenViews | None = None
         self.step_limit: int | None = None
         self.changes: list[ParameterChanged] = []
@@ -179,6 +180,7 @@ class Run:
             return
         yield from self._checkpoint()
         reason = "interrupted" if self.stopped else "budget" if self.progress.out_of_time(self.clock) else "done"
+        reason = "goal" if self.goal else reason
         yield Finished(*self.clock.now(), self.progress.step, reason, {"psnr_held_out": self.progress.psnr()})
 
     def _motion_deadline(self) -> Deadline:
@@ -312,7 +314,8 @@ class Run:
 
     def _over(self) -> bool:
         limit = self.step_limit is not None and self.progress.step >= self.step_limit
-        return self.stopped or limit or self.progress.out_of_time(self.clock)
+        self.goal = self.goal or self.progress.goal_reached()
+        return self.stopped or limit or self.goal or self.progress.out_of_time(self.clock)
 
     def _checkpoint(self) -> Iterator[Checkpointed]:
         if self.run_dir is None:

@@ -10,10 +10,11 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
+from genmojo_core.optimise import gain
 from genmojo_studio.state import AppState
 from genmojo_studio.theme import SERIES, colours
 from genmojo_studio.translate import tr
-from genmojo_studio.watch import gain, plots
+from genmojo_studio.watch import plots
 from genmojo_studio.watch.run_log import RunLog
 
 REFRESH_MS = 100  # at most ten times a second

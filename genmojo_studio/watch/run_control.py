@@ -9,8 +9,8 @@ from typing import Any
 from PySide6.QtCore import QObject, Signal
 
 from genmojo_core.errors import GenmojoError
+from genmojo_core.optimise.gain import StopRule
 from genmojo_studio.view3d.snapshot import SceneSnapshot
-from genmojo_studio.watch.gain import StopRule
 from genmojo_studio.watch.run_log import RunLog
 from genmojo_studio.worker.client import WorkerClient
 from genmojo_studio.worker.death import DeathReport

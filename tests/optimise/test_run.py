@@ -41,6 +41,17 @@ def test_a_run_tells_its_stages_and_ends_with_a_better_scene(clip: Clip) -> None
     assert len(set(baked.uid.tolist())) == len(baked.uid)
 
 
+def test_a_run_ends_when_its_goal_is_reached(clip: Clip) -> None:
+    """Not before all frames take part, and with a scene; a goal out of reach changes nothing."""
+    whole = list(small_run(clip, joint_steps=40, held_out_share=0.2))
+    short = list(small_run(clip, joint_steps=40, held_out_share=0.2, until="psnr>=5"))
+    assert isinstance(short[-1], Finished) and short[-1].reason == "goal"
+    assert 12 <= steps(short)[-1].step < 40 and steps(short)[-1].stage == "joint"
+    assert steps(short)[-1].psnr_held_out >= 5
+    never = list(small_run(clip, joint_steps=40, held_out_share=0.2, until="psnr>=90"))
+    assert never[-1].reason == "done" and len(steps(never)) == len(steps(whole))
+
+
 def test_the_same_seed_gives_the_same_scene_bit_for_bit(clip: Clip) -> None:
     first, second = (small_run(clip, BENDING) for _ in range(2))
     losses = [[s.loss for s in steps(list(run))] for run in (first, second)]

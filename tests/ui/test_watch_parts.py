@@ -5,9 +5,10 @@ import math
 import numpy as np
 import pytest
 
+from genmojo_core.optimise import gain
 from genmojo_core.tracks.model import OCCLUDED, VISIBLE, PointTracks
 from genmojo_studio.undo import UndoStack
-from genmojo_studio.watch import differences, gain, track_sets
+from genmojo_studio.watch import differences, track_sets
 from genmojo_studio.watch.player import following
 from genmojo_studio.watch.run_log import RunLog
 

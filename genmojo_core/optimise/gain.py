@@ -2,7 +2,7 @@
 
 The tail of such curves is close to a line over the logarithm of the time since measuring began. The line is fitted to
 the last half of the points; its slope's standard error gives the spread. Nothing is said before a quarter of the time
-that is looked ahead has been seen. Knows no Qt.
+that is looked ahead has been seen. Imports no torch: the app draws the same line.
 """
 
 from __future__ import annotations
