@@ -21,37 +21,12 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
+from table import Check
+
 ROOT = Path(__file__).resolve().parents[2]
 BASELINES = (
     "LK chains 42.6/32.5 and 47.1/33.8, centroid 20.4/22.6 and 9.9/9.4, mask-stabilised flow 11.6/8.4 and 9.2/10.9"
 )
-
-
-@dataclass
-class Check:
-    """One figure and what it must be: `at_most` or `at_least` a limit; `limit` None is only reported."""
-
-    name: str
-    value: float | None
-    limit: float | None = None
-    at_most: bool = False
-
-    @property
-    def met(self) -> bool:
-        """Whether the figure is what it must be."""
-        if self.limit is None:
-            return True
-        if self.value is None:
-            return False
-        return self.value <= self.limit if self.at_most else self.value >= self.limit
-
-    def text(self) -> str:
-        """For the table."""
-        shown = "none" if self.value is None else f"{self.value:.4g}"
-        if self.limit is None:
-            return f"{self.name} {shown}"
-        sign = "≤" if self.at_most else "≥"
-        return f"{self.name} {shown} ({sign} {self.limit:g}{'' if self.met else ', NOT MET'})"
 
 
 @dataclass
