@@ -73,5 +73,5 @@ def run_metrics(args: argparse.Namespace) -> dict[str, Any]:
         raise GenmojoError("schema", f"holds {n} tracks over {t} frames, the truth {m} over {u}", args.predicted)
     result = track_metrics(predicted, truth)
     if predicted.xyz is not None and truth.xyz is not None and np.isfinite(predicted.xyz).any():
-        result |= space_metrics(predicted.xyz, truth.xyz, fit=True)
+        result |= space_metrics(predicted.xyz, truth.xyz, True, truth.object)
     return dict(result)

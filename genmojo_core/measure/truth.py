@@ -60,7 +60,7 @@ def track_scores(scene: BakedScene, clip: Clip, truth_path: Path) -> dict[str, f
     ours = scene_tracker.track(scene, np.zeros(len(truth.xy), np.int64), truth.xy[:, 0])
     figures = track_metrics(ours, truth, np.zeros(len(truth.xy), np.int64))
     if truth.xyz is not None and ours.xyz is not None:
-        figures |= space_metrics(ours.xyz, truth.xyz, fit=not shares_world(scene, clip))
+        figures |= space_metrics(ours.xyz, truth.xyz, not shares_world(scene, clip), truth.object)
     return figures
 
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 
 from genmojo_core.clip.cameras import View
@@ -22,7 +23,8 @@ from genmojo_core.store.scene_file import BakedScene, Frame
 from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE, PointTracks
 
 CARRIERS = 16  # Gaussians that carry one query at most
-DEPTH_TOLERANCE = 0.10  # relative: farther behind the rendered surface is hidden
+BEHIND = 0.04  # of the object's size: farther behind its own rendered surface is its hidden side
+NEARBY = 0.0075  # of the short side: places are good to about this, so the surface is looked up this far around
 RIM = 0.015  # of the short side: a query on the background this near an object is meant for the object
 TEST_SHORT_SIDE = 384  # pixels at most of the images in which visibility is tested
 _SEEN_ALPHA = 0.5  # coverage from which a pixel shows something
@@ -50,8 +52,10 @@ def track(
 ) -> PointTracks:
     """Tracks of N queries over all frames, in source pixels, with world positions and the owner's id.
 
-    A point is visible where its depth is within 10 % of the alpha-normalised rendered depth (or before it) and the
-    pixel shows its instance; outside the picture it is OUT_OF_VIEW. In its own query frame it is the query itself.
+    A point is visible where its pixel shows its instance and the point is not behind the instance's own surface there:
+    a solid hides its far side, at a gap that is small against the distance to the camera but not against the object.
+    How far behind is counted from the farthest surface NEARBY (slanted surfaces change depth within the error of a
+    place). Outside the picture it is OUT_OF_VIEW. In its own query frame it is the query itself.
 
     Raises GenmojoError: "empty" for a file without Gaussians or without queries, "argument" for a query outside the
     frames or the picture.
@@ -217,14 +221,30 @@ def _states(
     place = np.floor(pixels * [width / view.width, height / view.height])
     column, row = np.clip(place, 0, [width - 1, height - 1]).astype(np.int64).T
     shown = (winners[row, column] == owner) & (alpha[row, column] > _SEEN_ALPHA)
-    near = depth <= surface[row, column] * (1 + DEPTH_TOLERANCE)
-    return np.where(outside, OUT_OF_VIEW, np.where(shown & near, VISIBLE, OCCLUDED)).astype(np.uint8)
+    reach = round(NEARBY * min(width, height))
+    around = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1))
+    before = np.zeros(len(owner), bool)
+    for k in np.unique(owner):
+        own = owner == k
+        farthest = cv2.dilate(np.where(winners == k, surface, 0.0), around)[row[own], column[own]]
+        before[own] = depth[own] <= farthest + BEHIND * _size(frame.means[frame.object_index == k])
+    return np.where(outside, OUT_OF_VIEW, np.where(shown & before, VISIBLE, OCCLUDED)).astype(np.uint8)
+
+
+def _size(means: np.ndarray) -> float:  # (N, 3)
+    """Size of a cloud, as objects are measured in the lift: twice the distance from the middle that 95 % are within."""
+    return 2.0 * float(np.percentile(np.linalg.norm(means - np.median(means, axis=0), axis=1), 95))
 
 
 def _labels(scene: BakedScene, frame: Frame, view: View) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Object with the largest share, alpha and alpha-normalised depth (H, W), at TEST_SHORT_SIDE at most."""
+    """Object with the largest share, alpha, and that object's own mean depth (H, W), at TEST_SHORT_SIDE at most."""
     scale = min(1.0, TEST_SHORT_SIDE / min(view.width, view.height))
     small = view.resized(max(1, round(view.width * scale)), max(1, round(view.height * scale)))
     labels = np.eye(len(scene.objects), dtype=np.float32)[frame.object_index]
-    drawn = rasterize(Splats(frame.means, frame.quats, frame.scales, frame.opacities, labels), small)
-    return np.argmax(drawn.features, axis=-1), drawn.alpha, drawn.depth / np.maximum(drawn.alpha, 1e-4)
+    depths = labels * project(frame.means, view)[1][:, None].astype(np.float32)
+    features = np.concatenate([labels, depths], axis=1)
+    drawn = rasterize(Splats(frame.means, frame.quats, frame.scales, frame.opacities, features), small)
+    share, depth = np.split(drawn.features, 2, axis=-1)
+    winners = np.argmax(share, axis=-1)[..., None]
+    surface = np.take_along_axis(depth, winners, -1) / np.maximum(np.take_along_axis(share, winners, -1), 1e-4)
+    return winners[..., 0], drawn.alpha, surface[..., 0]

@@ -73,6 +73,7 @@ def space_metrics(
     predicted: np.ndarray,  # (P, T, 3) world
     truth: np.ndarray,  # (P, T, 3) world
     fit: bool,
+    objects: np.ndarray | None = None,  # (P,) ids
 ) -> dict[str, float]:
     """Errors in space, in the truth's units: ate_3d is the mean distance over all tracks and frames.
 
@@ -82,7 +83,8 @@ def space_metrics(
 
     Returns:
         ate_3d, and under their own keys ate_3d_raw, ate_3d_fit, the fitted scale fit_scale, and extent_3d (root mean
-        square distance of the truth from its mean, to judge the others by).
+        square distance of the truth from its mean, to judge the others by). With objects also ate_3d_percent: ate_3d
+        in percent of the objects' mean size, each twice the largest distance of its points from their middle.
     Raises GenmojoError("empty") without a finite pair.
     """
     good = np.isfinite(predicted).all(axis=-1) & np.isfinite(truth).all(axis=-1)
@@ -94,8 +96,17 @@ def space_metrics(
     raw = float(np.linalg.norm(ours - theirs, axis=-1).mean())
     fitted = float(np.linalg.norm(moved - theirs, axis=-1).mean())
     extent = float(np.sqrt(np.square(theirs - theirs.mean(axis=0)).sum(axis=-1).mean()))
-    return {"ate_3d": fitted if fit else raw, "ate_3d_raw": raw, "ate_3d_fit": fitted, "fit_scale": scale,
-            "extent_3d": extent}  # fmt: skip
+    figures = {"ate_3d": fitted if fit else raw, "ate_3d_raw": raw, "ate_3d_fit": fitted, "fit_scale": scale,
+               "extent_3d": extent}  # fmt: skip
+    size = 0.0 if objects is None else float(np.mean([_size(truth[objects == k]) for k in np.unique(objects)]))
+    return figures | ({"ate_3d_percent": 100.0 * figures["ate_3d"] / size} if size > 0 else {})
+
+
+def _size(truth: np.ndarray) -> float:  # (P, T, 3) of one object
+    """Its mean size over the frames in which all its points have a place; 0 if there is none."""
+    known = np.isfinite(truth).all(axis=(0, 2))
+    away = np.linalg.norm(truth[:, known] - truth[:, known].mean(axis=0), axis=-1)
+    return 2.0 * float(away.max(axis=0).mean()) if known.any() else 0.0
 
 
 def fit_similarity(source: np.ndarray, target: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:

@@ -11,6 +11,7 @@ from scenes import small_scene
 from genmojo_core.clip.cameras import Cameras
 from genmojo_core.errors import GenmojoError
 from genmojo_core.measure.views import render_frame
+from genmojo_core.store.scene_file import BakedScene
 from genmojo_core.trackers.scene import project, track
 from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE
 
@@ -73,6 +74,42 @@ def test_hidden_and_out_of_view():
     free = (np.linalg.norm(front - path, axis=1) > 60) & (path[:, 0] > 4)
     assert behind.any() and gone.any() and free.any()
     assert (state[behind] == OCCLUDED).all() and (state[gone] == OUT_OF_VIEW).all() and (state[free] == VISIBLE).all()
+
+
+def turning_ball(frames: int, turn: float) -> BakedScene:
+    """A ball of radius 0.5, opaque on its surface only, that turns about the vertical axis before the wall."""
+    scene = small_scene(frames=frames, size=(192, 144), per_object=4000, shift=0.0)
+    ball, other = scene.objects[1:]
+    i = np.arange(ball.count) + 0.5
+    height, angle = 1 - 2 * i / ball.count, i * np.pi * (1 + 5**0.5)
+    ring = np.sqrt(1 - height**2)
+    normal = np.stack([ring * np.cos(angle), height, ring * np.sin(angle)], axis=-1)
+    xyz, scale, rot = scene.xyz.copy(), scene.scale.copy(), scene.rot.copy()
+    rows = slice(ball.first, ball.first + ball.count)
+    xyz[rows], scale[rows] = 0.5 * normal, [0.02, 0.02, 0.002]
+    half = np.concatenate([1 + normal[:, 2:], np.stack([-normal[:, 1], normal[:, 0], 0 * angle], -1)], axis=1)
+    rot[rows] = half / np.linalg.norm(half, axis=1, keepdims=True)  # z axis onto the normal
+    xyz[other.first :] += [0, 50, 0]
+    placement = scene.object_to_world.copy()
+    for t in range(frames):
+        a = np.deg2rad(turn * t)
+        placement[t, 1, :, :3] = [[np.cos(a), 0, np.sin(a)], [0, 1, 0], [-np.sin(a), 0, np.cos(a)]]
+        placement[t, 1, :, 3] = [0, 0, 4]
+    return replace(scene, xyz=xyz, scale=scale, rot=rot, rot_t=np.tile(rot, (frames, 1, 1)), object_to_world=placement)
+
+
+def test_a_solid_hides_its_far_side():
+    """A point of a turning ball is seen until it is at the ball's horizon, to 8 degrees, and from there again."""
+    scene = turning_ball(frames=37, turn=10.0)
+    start = np.array([[0.0, 0.0, -0.5], [0.3, 0.0, -0.4], [-0.2, 0.3, -np.sqrt(0.25 - 0.13)]])
+    paths = np.stack([disc_path(scene, 1, p) for p in start])
+    found = track(scene, np.zeros(3, int), paths[:, 0])
+    world = np.einsum("tij,pj->pti", scene.object_to_world[:, 1, :, :3], start) + [0, 0, 4]
+    facing = np.einsum("pti,pti->pt", (world - [0, 0, 4]) / 0.5, -world / np.linalg.norm(world, axis=-1, keepdims=True))
+    angle = np.degrees(np.arcsin(facing))  # above the horizon
+    assert (angle > 8).any(axis=1).all() and (angle < -8).sum() > 40
+    assert (found.state[angle > 8] == VISIBLE).all()
+    assert (found.state[angle < -8] == OCCLUDED).all()
 
 
 def test_background_moves_with_the_camera_only():

@@ -200,6 +200,16 @@ def test_similarity_fit_finds_a_known_one(seed, scale):
     assert np.allclose(s * source @ r.T + t, target, atol=1e-6)
 
 
+def test_errors_in_space_as_a_share_of_the_objects():
+    """Two objects of sizes 2 and 4 that drift: an error of 0.3 is 10 % of their mean size, wherever they are."""
+    rod = np.array([[-1.0, 0, 0], [0, 0, 0], [1, 0, 0]])
+    drift = np.arange(5)[None, :, None] * np.ones(3)
+    truth = np.concatenate([rod[:, None] + drift, 2 * rod[:, None] - drift])
+    found = space_metrics(truth + [0, 0.3, 0], truth, False, np.array([1, 1, 1, 2, 2, 2]))
+    assert found["ate_3d"] == pytest.approx(0.3) and found["ate_3d_percent"] == pytest.approx(10.0)
+    assert "ate_3d_percent" not in space_metrics(truth[:1], truth[:1], False, np.array([1])), "a point has no size"
+
+
 def test_a_mirror_is_not_a_rotation():
     """Mirrored points cannot be fitted: R stays right-handed."""
     source = np.random.default_rng(0).normal(size=(30, 3))
