@@ -6,13 +6,16 @@ to that.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 
+from PySide6.QtCore import QTimer
 from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
+from shiboken6 import isValid
 
 ICONS = Path(__file__).resolve().parent.parent / "resources" / "icons"
+_AT_ONCE = 60  # widgets that are dressed anew in one tick
 
 
 @dataclass(frozen=True)
@@ -87,51 +90,100 @@ def contrast(first: str, second: str) -> float:
 
 
 def apply(application: QApplication, theme: str) -> None:
-    """Dresses the whole application in a theme."""
-    table = colours(theme)
-    if not application.styleSheet():  # once: every widget is dressed anew by each of these calls
+    """Dresses the whole application in a theme: what is on show at once, the rest in the ticks after it.
+
+    The style sheet is the same for all themes and takes its colours from the palette, so it is set once. Widgets keep
+    what it told them until they are polished anew; to set another sheet would do that to all of them in one go, which
+    held the window up for a fifth of a second.
+    """
+    application.setPalette(_palette(colours(theme)))
+    if not application.styleSheet():
         application.setStyle("Fusion")
-    application.setPalette(_palette(table))
-    application.setStyleSheet(_style_sheet(table))
+        application.setStyleSheet(_style_sheet())
+        return
+    widgets = application.allWidgets()
+    _polish([widget for widget in widgets if widget.isVisible()])
+    _polish_later([widget for widget in widgets if not widget.isVisible()])
+
+
+def _polish(widgets: list[QWidget]) -> None:
+    for widget in widgets:
+        style = widget.style()
+        style.unpolish(widget)
+        style.polish(widget)
+        widget.update()
+
+
+def _polish_later(widgets: list[QWidget]) -> None:
+    """A few in each tick; those that were deleted meanwhile are passed over."""
+    now, rest = widgets[:_AT_ONCE], widgets[_AT_ONCE:]
+    _polish([widget for widget in now if isValid(widget)])
+    if rest:
+        QTimer.singleShot(0, lambda: _polish_later(rest))
+
+
+def _roles(table: Colours) -> dict[QPalette.ColorRole, str]:
+    """Every colour of the table, and three mixed ones, under the role by which palette and style sheet call it."""
+    role = QPalette.ColorRole
+    return {
+        role.Window: table.panel,
+        role.WindowText: table.text,
+        role.Base: table.field,
+        role.AlternateBase: table.panel,
+        role.Text: table.text,
+        role.Button: table.raised,
+        role.ButtonText: table.text,
+        role.PlaceholderText: table.dim,
+        role.Highlight: table.accent,
+        role.HighlightedText: table.on_accent,
+        role.Link: table.accent,
+        role.Mid: table.line,
+        role.Dark: table.window,
+        role.BrightText: table.bad,
+        role.LinkVisited: table.good,
+        role.ToolTipBase: table.warn,  # tool tips have colours of their own in the sheet
+        role.ToolTipText: table.text,
+        role.Midlight: _mix(table.raised, table.text, 0.08),
+        role.Shadow: _mix(table.dim, table.panel, 0.45),
+        role.Light: _mix(table.accent, table.field, 0.45),
+    }
 
 
 def _palette(table: Colours) -> QPalette:
-    palette = QPalette()
-    role = QPalette.ColorRole
-    for which, colour in (
-        (role.Window, table.panel),
-        (role.WindowText, table.text),
-        (role.Base, table.field),
-        (role.AlternateBase, table.panel),
-        (role.Text, table.text),
-        (role.Button, table.raised),
-        (role.ButtonText, table.text),
-        (role.BrightText, table.bad),
-        (role.ToolTipBase, table.raised),
-        (role.ToolTipText, table.text),
-        (role.PlaceholderText, table.dim),
-        (role.Highlight, table.accent),
-        (role.HighlightedText, table.on_accent),
-        (role.Link, table.accent),
-        (role.Mid, table.line),
-        (role.Dark, table.window),
-    ):
-        palette.setColor(which, QColor(colour))
-    for which in (role.Text, role.ButtonText, role.WindowText):
-        palette.setColor(QPalette.ColorGroup.Disabled, which, QColor(_mix(table.dim, table.panel, 0.45)))
+    palette, roles = QPalette(), _roles(table)
+    for role, colour in roles.items():
+        palette.setColor(role, QColor(colour))
+    for role in (QPalette.ColorRole.Text, QPalette.ColorRole.ButtonText, QPalette.ColorRole.WindowText):
+        palette.setColor(QPalette.ColorGroup.Disabled, role, QColor(roles[QPalette.ColorRole.Shadow]))
     return palette
 
 
-def _style_sheet(table: Colours) -> str:
+# How the style sheet calls the colours.
+_WORDS = {
+    "window": "dark",
+    "panel": "window",
+    "field": "base",
+    "raised": "button",
+    "line": "mid",
+    "text": "window-text",
+    "dim": "placeholder-text",
+    "accent": "highlight",
+    "on_accent": "highlighted-text",
+    "good": "link-visited",
+    "warn": "tooltip-base",
+    "bad": "bright-text",
+    "hover": "midlight",
+    "off": "shadow",
+    "chunk": "light",
+}
+
+
+def _style_sheet() -> str:
     """The rules that a palette cannot say. Sizes are in device-independent pixels."""
-    sheet = _RULES
-    for field in fields(Colours):
-        sheet = sheet.replace(f"@{field.name}@", getattr(table, field.name))
-    sheet = sheet.replace("@chunk@", _mix(table.accent, table.field, 0.45))
-    sheet = sheet.replace("@icons@", ICONS.as_posix())
-    return sheet.replace("@hover@", _mix(table.raised, table.text, 0.08)).replace(
-        "@off@", _mix(table.dim, table.panel, 0.45)
-    )
+    sheet = _RULES.replace("@icons@", ICONS.as_posix())
+    for name, word in _WORDS.items():
+        sheet = sheet.replace(f"@{name}@", f"palette({word})")
+    return sheet
 
 
 _RULES = """
