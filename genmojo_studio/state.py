@@ -22,6 +22,7 @@ class AppState:
 
     Attributes (change them with `set`, never directly):
         clip: the clip that is open, or None.  clip_path: where it was read from, or None.
+        masks_path: file with masks that a person corrected, which stand for the clip's, or None.
         scene_path: the scene file or run folder on show, or None.
         frame: index into the clip's frames, 0-based, always inside.  frame_count: number of frames, at least 1.
         playing: whether time runs.  speed: frames advance at `speed` times the clip's rate, > 0.
@@ -31,6 +32,7 @@ class AppState:
 
     clip: Clip | None
     clip_path: Path | None
+    masks_path: Path | None
     scene_path: Path | None
     frame: int
     frame_count: int
@@ -46,6 +48,7 @@ class AppState:
         self._values: dict[str, Any] = {
             "clip": None,
             "clip_path": None,
+            "masks_path": None,
             "scene_path": None,
             "frame": 0,
             "frame_count": 1,
@@ -98,11 +101,12 @@ class AppState:
 
         return unsubscribe
 
-    def open_clip(self, clip: Clip, path: str | Path) -> None:
-        """Puts another clip on show, at its first frame, nothing selected."""
+    def open_clip(self, clip: Clip, path: str | Path, masks: Path | None = None) -> None:
+        """Puts another clip on show, at its first frame, nothing selected; `masks`: where corrected ones lie."""
         self.set(
             clip=clip,
             clip_path=Path(path),
+            masks_path=masks,
             frame_count=max(len(clip), 1),
             frame=0,
             playing=False,

@@ -122,7 +122,7 @@ class MainWindow(QMainWindow):
         """Reads a clip on a thread and shows it in a workspace."""
         self.header.say(tr("Reading {name} …").format(name=path.name), busy=True)
         self.tasks.run(
-            lambda: _read_clip(path), lambda clip: self._clip_read(clip, path, workspace), self._reading_failed
+            lambda: _read_clip(path), lambda found: self._clip_read(*found, path, workspace), self._reading_failed
         )
 
     def open_demo(self) -> None:
@@ -178,9 +178,9 @@ class MainWindow(QMainWindow):
         bind("help.about", lambda: About(self).exec())
         self.state.subscribe(self._show_title, "clip", "clip_path", "scene_path")
 
-    def _clip_read(self, clip: Clip, path: Path, workspace: str) -> None:
+    def _clip_read(self, clip: Clip, masks: Path | None, path: Path, workspace: str) -> None:
         self.header.say("")
-        self.state.open_clip(clip, path)
+        self.state.open_clip(clip, path, masks)
         self.show_workspace(workspace)
 
     def _reading_failed(self, error: BaseException) -> None:
@@ -244,10 +244,15 @@ def _make_workspace(name: str, state: AppState, table: ActionTable) -> Workspace
     return WatchWorkspace(state, table)
 
 
-def _read_clip(path: Path) -> Clip:
-    from genmojo_core.clip import folders
+def _read_clip(path: Path) -> tuple[Clip, Path | None]:
+    """The clip, with the masks that a person corrected in its project and where they lie, if there are any."""
+    from genmojo_core.clip import folders, mask_file
+    from genmojo_studio.annotate import hand_masks
+    from genmojo_studio.annotate.session import project_path
 
-    return folders.read(path, short_side=opening.SHARED_SHORT_SIDE)
+    clip = folders.read(path, short_side=opening.SHARED_SHORT_SIDE)
+    masks = project_path(path).with_suffix(hand_masks.SUFFIX)
+    return (mask_file.with_masks(clip, masks), masks) if masks.exists() else (clip, None)
 
 
 def _write_demo() -> Path:

@@ -140,7 +140,7 @@ def peak_mb() -> float:
 
 def _prepare(args: argparse.Namespace, config: RunConfig) -> tuple[Clip, EffectPlan]:
     """Read the clip at the size to optimise, estimate what it lacks, decide the effects."""
-    from genmojo_core.clip import folders
+    from genmojo_core.clip import folders, mask_file
     from genmojo_core.effects import decide
     from genmojo_core.estimate.complete import complete
     from genmojo_core.optimise import methods
@@ -150,6 +150,7 @@ def _prepare(args: argparse.Namespace, config: RunConfig) -> tuple[Clip, EffectP
     with progress("reading") as tell:
         clip = folders.read(args.clip, frames=args.frames, short_side=config.short_side, ignore=args.ignore,
                             pixel_aspect=args.pixel_aspect)  # fmt: skip
+        clip = mask_file.with_masks(clip, args.masks) if args.masks else clip
         tell(1.0)
     with progress("looking at the clip") as tell:
         clip = complete(clip, boxes=_boxes(args), progress=lambda _, share: tell(share), models=external)

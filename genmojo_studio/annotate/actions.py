@@ -128,6 +128,7 @@ _REST = (
             separator=True),
     _action("file.export", "Export tracks…", "Ctrl+E", "The same formats."),
     _action("file.tour", "Tour of the annotator", "", "Ten steps on a clip made on the spot."),
+    _action("step.edit_mask", "Draw the selected mask anew", "", "Step 1; what is drawn replaces the object's mask."),
     *(_action(f"step.{n}", title, f"Alt+{n}", f"Step {n} of 4.") for n, title in
       enumerate(("Objects", "Points and seed", "Refine", "Review"), 1)),
 )  # fmt: skip

@@ -59,6 +59,7 @@ def _connect(w: AnnotateWorkspace) -> None:
     work.tool_changed.connect(w.use_tool)
     w.objects.tool_wanted.connect(work.use_tool)
     w.objects.cut_wanted.connect(work.cut)
+    work.replaces = w.objects.replaced
     canvas.boxed.connect(work.add_box)
     canvas.stroked.connect(work.add_stroke)
     w.bar.stride_changed.connect(w.set_stride)
@@ -159,7 +160,16 @@ class Hands:
             "file.tour": w.start_tour,
             "move.panel": w.next_panel,
             **{f"step.{n + 1}": partial(w.show_step, n) for n in range(4)},
+            "step.edit_mask": self.edit_mask,
         }
+
+    def edit_mask(self) -> None:
+        """Step 1, the selected object's mask to be drawn anew."""
+        self._w.show_step(0)
+        selected = self._s.state.selected_object
+        if selected:
+            self._s.select(int(selected), 1)
+            self._w.objects.instead.setChecked(True)
 
     def enabled(self, name: str) -> Callable[[], bool]:
         """When an action is possible."""

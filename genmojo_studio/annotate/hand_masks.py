@@ -5,15 +5,19 @@ from __future__ import annotations
 import io
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
+from genmojo_core.clip import mask_file
 from genmojo_core.clip.clip import Channel, Clip
 from genmojo_core.estimate.flow import sequence_flow
 from genmojo_core.estimate.masks import Box, Helpers, Prompt, Scribble, masks_from_prompts
+from genmojo_core.store.atomic import write_bytes
 from genmojo_core.store.project import Project
 
 BLOB = "hand_masks"
+SUFFIX = ".masks.npz"  # beside the project: the clip's masks with these in them, for runs
 Progress = Callable[[float], None]
 
 
@@ -42,6 +46,16 @@ def with_object(clip: Clip, object_id: int, name: str, mask: np.ndarray) -> Clip
     labels[mask] = ids.index(object_id) + 1
     channel = Channel(labels, valid | mask, "given: drawn by hand")
     return clip.with_channels(masks=channel, object_ids=np.array(ids, np.int64), object_names=tuple(names))
+
+
+def publish(clip: Clip, project: Path) -> Path:
+    """Write the clip's masks, hand-made ones in them, beside the project; runs of the clip take them from there.
+
+    Raises GenmojoError as `write_bytes` and `mask_file.to_bytes`.
+    """
+    path = project.with_suffix(SUFFIX)
+    write_bytes(path, mask_file.to_bytes(clip))
+    return path
 
 
 def save(project: Project, masks: dict[int, np.ndarray]) -> None:

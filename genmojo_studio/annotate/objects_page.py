@@ -8,6 +8,7 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import (
     QAbstractItemView,
+    QCheckBox,
     QComboBox,
     QGridLayout,
     QHBoxLayout,
@@ -49,6 +50,8 @@ class ObjectsPage(QWidget):
         self.reason = QComboBox()
         self.tools: dict[Tool, QToolButton] = {}
         self.cut = QPushButton(tr("Cut out"))
+        self.instead = QCheckBox(tr("Instead of the selected object's mask"))
+        self.instead.setToolTip(tr("What is drawn replaces its mask in every frame; runs use the new one."))
         self.progress = QProgressBar(maximum=100)
         self.note = QLabel(wordWrap=True)
         self.progress.hide()
@@ -80,6 +83,11 @@ class ObjectsPage(QWidget):
         self.progress.setVisible(share < 1)
         self.progress.setRange(0, 0 if share < 1 else 100)
         self.cut.setEnabled(share >= 1)
+
+    def replaced(self) -> int | None:
+        """Id of the object whose mask is to be drawn anew, None for a new object."""
+        info = self.current()
+        return info.id if info is not None and self.instead.isChecked() else None
 
     def current(self) -> ObjectInfo | None:
         """The object of the row that is selected."""
@@ -180,6 +188,7 @@ class ObjectsPage(QWidget):
         column.addWidget(self.table, 1)
         column.addLayout(self._decisions())
         column.addLayout(self._makers())
+        column.addWidget(self.instead)
         column.addWidget(self.progress)
         column.addWidget(self.note)
 

@@ -112,11 +112,10 @@ class Session(QObject):
 
     def mask_at(self, frame: int) -> np.ndarray | None:
         """(h, w) object ids of a frame, from the clip or made by hand; None if there are none."""
-        labels = self.cache.mask(frame)
-        if labels is None and self.clip is not None and self.clip.masks is not None and self.hand_masks:
+        if self.clip is not None and self.clip.masks is not None and self.hand_masks:
             table = np.concatenate([[0], self.clip.object_ids]).astype(np.uint8)
             return np.asarray(table[self.clip.masks.value[frame]])
-        return labels
+        return self.cache.mask(frame)
 
     def title(self, object_id: int, number: int) -> str:
         """What a person calls a point."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -43,6 +45,9 @@ class Work(QObject):
         self.tracker.busy_changed.connect(self.busy_changed)
         self.prompts: list[Prompt] = []
         self._own_masks: dict[int, np.ndarray] = {}
+        self.replaces: Callable[[], int | None] = lambda: (
+            None
+        )  # the object whose mask a cut stands for; None: a new one
         self._closed = False
         QTimer.singleShot(0, self._read_clip)
 
@@ -81,21 +86,25 @@ class Work(QObject):
         self.prompts = []
         self.busy_changed.emit(tr("Cutting the object out of every frame …"))
         self.cutting.emit(0.0)
-        self.tasks.run(lambda: hand_masks.cut_out(clip, prompts), self._cut_done, self._failed)
+        done = partial(self._cut_done, self.replaces())
+        self.tasks.run(lambda: hand_masks.cut_out(clip, prompts), done, self._failed)
 
-    def _cut_done(self, mask: np.ndarray) -> None:
+    def _cut_done(self, replaced: int | None, mask: np.ndarray) -> None:
         session, clip = self._session, self._session.clip
         if self._closed or clip is None:
             return
         self.cutting.emit(1.0)
         self.busy_changed.emit("")
-        number = max([0, *session.annotation.objects, *clip.object_ids.tolist()]) + 1
-        name = tr("object {n}").format(n=number)
+        number = replaced or max([0, *session.annotation.objects, *clip.object_ids.tolist()]) + 1
+        known = session.annotation.objects.get(number)
+        name = known.name if known else tr("object {n}").format(n=number)
         self._own_masks[number] = mask
         if not session.project.read_only:
             hand_masks.save(session.project, self._own_masks)
         self._add_mask(number, name, mask)
-        session.do(put_objects(session.annotation, [ObjectInfo(number, name)], tr("Cut out {name}").format(name=name)))
+        self._publish()
+        made = known or ObjectInfo(number, name)
+        session.do(put_objects(session.annotation, [made], tr("Cut out {name}").format(name=name)))
         session.select(number, 1)
         self._count()
 
@@ -104,6 +113,16 @@ class Work(QObject):
             self._session.clip = hand_masks.with_object(self._session.clip, number, name, mask)
             self._session.hand_masks[number] = mask
             self.masks_changed.emit()
+
+    def _publish(self) -> None:
+        """Runs of this clip, and everything that shows it, take the masks as they stand now."""
+        clip, project = self._session.clip, self._session.project
+        if clip is not None and not project.read_only:
+            self.tasks.run(lambda: hand_masks.publish(clip, project.path), self._published, self._failed)
+
+    def _published(self, path: Path) -> None:
+        if not self._closed:
+            self._session.state.set(clip=self._session.clip, masks_path=path)
 
     # ---- clip and candidates
 
@@ -131,6 +150,8 @@ class Work(QObject):
         for number, mask in self._own_masks.items():
             info = session.annotation.objects.get(number)
             self._add_mask(number, info.name if info else "", mask)
+        if self._own_masks:
+            self._publish()
         names = clip.object_names or ("",) * clip.objects
         new = [
             ObjectInfo(int(i), name or tr("object {n}").format(n=int(i)))

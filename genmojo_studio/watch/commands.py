@@ -136,10 +136,9 @@ def _ask_run(w: WatchWorkspace) -> None:
 
 
 def _edit_mask(w: WatchWorkspace) -> None:
-    """The annotator takes over at its step Objects; selection and frame are shared."""
+    """The annotator takes over where the selected mask is drawn anew; selection and frame are shared."""
     w.table.trigger("window.annotate")
-    if w.table.has("annotate.step.1"):
-        w.table.trigger("annotate.step.1")
+    w.table.trigger("annotate.step.edit_mask")
 
 
 def _toggle(w: WatchWorkspace, name: str) -> None:

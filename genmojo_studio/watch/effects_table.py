@@ -42,14 +42,15 @@ class EffectsTable(QTreeWidget):
         self._process: QProcess | None = None
         self.itemChanged.connect(self._ticked)
 
-    def measure(self, clip: Path, preset: str) -> None:
-        """Asks what the clip calls for under a preset; an older question is dropped."""
+    def measure(self, clip: Path, preset: str, masks: Path | None = None) -> None:
+        """Asks what the clip (with corrected masks) calls for under a preset; an older question is dropped."""
         self.stop()
         process = QProcess(self)
         process.finished.connect(self._finished)
         process.setProcessChannelMode(QProcess.ProcessChannelMode.SeparateChannels)
         self._process = process
         arguments = ["-m", "genmojo_core.cli.main", "effects", str(clip), "--preset", preset, "--json"]
+        arguments += ["--masks", str(masks)] if masks is not None else []
         process.start(sys.executable, arguments)
 
     def stop(self) -> None:

@@ -36,12 +36,14 @@ class StageTime:
 class RunLog:
     """Columns over the optimiser's steps, in the order they came.
 
-    seconds, step, gaussians, step_ms: one value per step. losses: name -> values, NaN where a step has not that loss.
+    seconds, step, stage, gaussians, step_ms: one value per step. A resumed run takes steps after its checkpoint again:
+    the newer ones stand for the older. losses: name -> values, NaN where a step has not that loss.
     accuracy: rows (seconds, step, held-out PSNR in dB). memory: rows (seconds, MB). marks, stages: see there.
     """
 
     seconds: list[float] = field(default_factory=list)
     step: list[int] = field(default_factory=list)
+    stage: list[str] = field(default_factory=list)
     gaussians: list[int] = field(default_factory=list)
     step_ms: list[float] = field(default_factory=list)
     losses: dict[str, list[float]] = field(default_factory=dict)
@@ -60,6 +62,9 @@ class RunLog:
             self._add_step(event, at)
         elif kind == "StageStarted":
             self._close_stage(at)
+            names = [stage.name for stage in self.stages]
+            if event["stage"] in names:  # resumed: this stage and those after it come again
+                del self.stages[names.index(event["stage"]) :]
             self.stages.append(StageTime(str(event["stage"]), int(event["steps"]), at))
             self.marks.append(Mark(at, "stage", str(event["stage"])))
         elif kind == "EffectChanged":
@@ -82,6 +87,7 @@ class RunLog:
             log.accuracy.append((float(row["seconds"]), int(row["step"]), float(row["psnr_held_out"])))
             log.seconds.append(float(row["seconds"]))
             log.step.append(int(row["step"]))
+            log.stage.append("")
             log.gaussians.append(int(row.get("gaussians", 0)))
             log.step_ms.append(math.nan)
         return log
@@ -113,10 +119,14 @@ class RunLog:
         return buffer.getvalue()
 
     def _add_step(self, event: Mapping[str, Any], at: float) -> None:
+        stage, step = str(event.get("stage", "")), int(event["step"])
+        if self.step and (step <= self.step[-1] or stage != self.stage[-1]):
+            self._take_back(stage, step)
         before = self.seconds[-1] if self.seconds else None
         self.step_ms.append((at - before) * 1000 if before is not None and at >= before else math.nan)
         self.seconds.append(at)
-        self.step.append(int(event["step"]))
+        self.step.append(step)
+        self.stage.append(stage)
         self.gaussians.append(int(event["gaussians"]))
         values = {"total": float(event["loss"]), **{k: float(v) for k, v in dict(event["losses"]).items()}}
         for name, value in values.items():
@@ -132,7 +142,19 @@ class RunLog:
         self.progress = float(event.get("progress", 0.0))
         self.eta_seconds = float(event.get("eta_seconds", math.nan))
         if self.stages:
-            self.stages[-1].done += 1
+            self.stages[-1].done = self.stage.count(stage)
+
+    def _take_back(self, stage: str, step: int) -> None:
+        """Forgets a step that comes again, and everything after it."""
+        known = list(zip(self.stage, self.step, strict=True))
+        if (stage, step) not in known:
+            return
+        first = known.index((stage, step))
+        last = self.seconds[first]
+        self.accuracy = [row for row in self.accuracy if row[0] < last]
+        self.memory = [row for row in self.memory if row[0] < last]
+        for column in (self.seconds, self.step, self.stage, self.gaussians, self.step_ms, *self.losses.values()):
+            del column[first:]  # type: ignore[attr-defined]
 
     def _close_stage(self, at: float) -> None:
         if self.stages and self.stages[-1].ended is None:

@@ -30,7 +30,7 @@ class RunSetup(QWidget):
     def __init__(self, state: AppState, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._state = state
-        self._measured_for: tuple[Path, str] | None = None
+        self._measured_for: tuple[object, ...] | None = None
         self.preset = QComboBox()
         for name, text in (("draft", tr("Draft")), ("standard", tr("Standard")), ("full", tr("Full (as the paper)"))):
             self.preset.addItem(text, name)
@@ -67,7 +67,7 @@ class RunSetup(QWidget):
         self.effects.changed.connect(self._tell)
         self.effects.failed.connect(self._measuring_failed)
         self.start_button.clicked.connect(self.start_wanted)
-        self._state.subscribe(self.refresh, "clip", "clip_path")
+        self._state.subscribe(self.refresh, "clip", "clip_path", "masks_path")
 
     def refresh(self) -> None:
         """Another clip or preset: measures its effects once the panel is on show."""
@@ -76,13 +76,15 @@ class RunSetup(QWidget):
         if path is None:
             self.said.setText(tr("Open a clip to start a run."))
             return
-        wanted = (path, str(self.preset.currentData()))
+        preset, masks = str(self.preset.currentData()), self._state.masks_path
+        edited = masks.stat().st_mtime_ns if masks is not None and masks.exists() else 0
+        wanted = (path, preset, edited)
         if self.isVisible() and wanted != self._measured_for:
             self._measured_for = wanted
             self.effects.clear()
             self.effects.rows = []
             self._say(tr("Measuring what the clip calls for …"), "dim")
-            self.effects.measure(*wanted)
+            self.effects.measure(path, preset, masks)
 
     def showEvent(self, event: object) -> None:
         """Nothing is measured while the panel is hidden."""
@@ -102,6 +104,7 @@ class RunSetup(QWidget):
             changes={"budget_seconds": self._budget(), "device": str(self.device.currentData())},
             effects=self.effects.overrides(),
             look_at=self._state.frame,
+            masks=str(self._state.masks_path or ""),
         )
 
     def _budget(self) -> float:
@@ -124,8 +127,8 @@ class RunSetup(QWidget):
         )
         if told.too_large:
             text += " " + tr("That is more than this machine has free: choose a smaller preset.")
-        guesses = "\n".join(self.effects.guesses)
-        self._say(f"{text}\n{guesses}" if guesses else text, "bad" if told.too_large else "dim")
+        edited = [tr("The run uses the masks that were corrected here.")] if self._state.masks_path else []
+        self._say("\n".join([text, *edited, *self.effects.guesses]), "bad" if told.too_large else "dim")
 
     def _forecast(self, clip: Clip) -> forecast.Forecast:
         config = self.config()

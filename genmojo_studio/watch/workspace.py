@@ -209,6 +209,7 @@ class WatchWorkspace(QMainWindow):
         self.appearance.changed.connect(self._look_changed)
         self.state.subscribe(self._frame_changed, "frame")
         self.state.subscribe(self._clip_changed, "clip")
+        self.state.subscribe(self._masks_changed, "masks_path", "clip")
 
     def _show_snapshot(self) -> None:
         snapshot = self.session.snapshot
@@ -237,6 +238,11 @@ class WatchWorkspace(QMainWindow):
         clip = self.state.clip
         if clip is not None and len(clip.seconds) > 1:
             self.player.fps = (len(clip.seconds) - 1) / max(float(clip.seconds[-1] - clip.seconds[0]), 1e-6)
+
+    def _masks_changed(self) -> None:
+        """Corrected masks call for another plan: it is shown again."""
+        if self.state.masks_path is not None and not self.control.live:
+            self.run_tabs.setCurrentIndex(0)
 
     def _frame_changed(self) -> None:
         if self.control.live and not self.state.playing:

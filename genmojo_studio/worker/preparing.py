@@ -12,7 +12,7 @@ import numpy as np
 
 from genmojo_core import events
 from genmojo_core.cli.models import models_of
-from genmojo_core.clip import folders
+from genmojo_core.clip import folders, mask_file
 from genmojo_core.clip.clip import Clip
 from genmojo_core.config import RunConfig, preset
 from genmojo_core.effects import decide
@@ -46,6 +46,7 @@ def prepare(request: RunRequest, announce: Announce, stopped: Callable[[], bool]
     announce("reading", "reading the clip", 60.0)
     clip = folders.read(request.clip, frames=request.frames, short_side=config.short_side, ignore=request.ignore,
                         pixel_aspect=request.pixel_aspect)  # fmt: skip
+    clip = mask_file.with_masks(clip, request.masks) if request.masks else clip
 
     def tell(stage: str, share: float) -> None:
         if stopped():

@@ -101,6 +101,7 @@ class RunRequest:
         preset, changes: as in `config.preset(preset, **changes)`. effects: overrides by hand, e.g. {"flow": False}.
         frames: (first, end) positions in the source, None for all. ignore: channels not to read.
         pixel_aspect: of source pixels, None for the clip's own. boxes: rows (frame, x0, y0, x1, y1), one object each.
+        masks: file of corrected masks that stand for the clip's (clip/mask_file.py), "" for none.
         models: external models by option name, as the command line's, e.g. {"depth_model": "folder"}.
         resume: go on from the run folder's checkpoint. paused: wait before the first step.
         cadence: how often previews come. look_at: frame the window shows, None for the canonical one.
@@ -116,6 +117,7 @@ class RunRequest:
     ignore: tuple[str, ...] = ()
     pixel_aspect: float | None = None
     boxes: tuple[tuple[float, ...], ...] = ()
+    masks: str = ""
     models: dict[str, str] = field(default_factory=dict)
     resume: bool = False
     paused: bool = False

@@ -113,3 +113,20 @@ def test_differences_of_equal_and_unequal_pictures():
     assert differences.onion(a, b, 1.0).tolist() == b.tolist()
     by_object = differences.psnr_by_object(a, b, np.tile([0, 0, 0, 1, 1, 1], (4, 1)), {7: 1})
     assert by_object[7] == pytest.approx(-20 * math.log10(10 / 255), abs=1e-3)
+
+
+def test_a_resumed_run_tells_each_step_once():
+    """Killed at step 4 after a checkpoint at step 2: steps 3 and 4 come again, and the newer ones count."""
+    log = RunLog()
+    for name in ("first scene", "joint"):
+        log.add({"event": "StageStarted", "seconds": 0.0, "stage": name, "steps": 9})
+    for step in range(1, 5):
+        log.add(_step(float(step), step, 20.0 + step, rgb=0.5))
+    for name in ("first scene", "joint"):
+        log.add({"event": "StageStarted", "seconds": 2.0, "stage": name, "steps": 9})
+    for step in range(3, 6):
+        log.add(_step(2.5 + step, step, 30.0 + step, rgb=0.1, flow=0.2))
+    assert log.step == [1, 2, 3, 4, 5] and log.losses["rgb"] == [0.5, 0.5, 0.1, 0.1, 0.1]
+    assert [row[1:] for row in log.accuracy] == [(1, 21.0), (2, 22.0), (3, 33.0), (4, 34.0), (5, 35.0)]
+    assert [(stage.name, stage.done) for stage in log.stages] == [("first scene", 0), ("joint", 5)]
+    assert {len(column) for column in (log.seconds, log.gaussians, log.step_ms, *log.losses.values())} == {5}
