@@ -122,7 +122,7 @@ class MainWindow(QMainWindow):
         """Reads a clip on a thread and shows it in a workspace."""
         self.header.say(tr("Reading {name} …").format(name=path.name), busy=True)
         self.tasks.run(
-            lambda: _read_clip(path), lambda found: self._clip_read(*found, path, workspace), self._reading_failed
+            lambda: _read_clip(path), lambda found: self._clip_read(found, path, workspace), self._reading_failed
         )
 
     def open_demo(self) -> None:
@@ -178,7 +178,8 @@ class MainWindow(QMainWindow):
         bind("help.about", lambda: About(self).exec())
         self.state.subscribe(self._show_title, "clip", "clip_path", "scene_path")
 
-    def _clip_read(self, clip: Clip, masks: Path | None, path: Path, workspace: str) -> None:
+    def _clip_read(self, found: tuple[Clip, Path | None], path: Path, workspace: str) -> None:
+        clip, masks = found
         self.header.say("")
         self.state.open_clip(clip, path, masks)
         self.show_workspace(workspace)

@@ -75,7 +75,7 @@ def _table(rows: Sequence[Mapping[str, Any]], prefix: str) -> Iterator[str]:
     widths = {name: max(len(name), *(len(row.get(name, "")) for row in rows)) for name in columns}
     yield prefix + "  ".join(name.ljust(widths[name]) for name in columns).rstrip()
     for i, row in enumerate(rows):
-        if MOST_ROWS <= len(rows) - 1 and MOST_ROWS // 2 <= i < len(rows) - MOST_ROWS // 2:
+        if len(rows) - 1 >= MOST_ROWS and MOST_ROWS // 2 <= i < len(rows) - MOST_ROWS // 2:
             if i == MOST_ROWS // 2:
                 yield f"{prefix}... {len(rows) - MOST_ROWS} more (--json has all)"
             continue
