@@ -87,7 +87,9 @@ def add_clip_options(parser: argparse.ArgumentParser) -> None:
 def add_config_options(parser: argparse.ArgumentParser) -> None:
     """Options that make a run configuration."""
     parser.add_argument(
-        "--preset", default="standard", help="draft, standard or full (numbers: genmojo_core/config.py)"
+        "--preset",
+        help="draft, standard or full (numbers: genmojo_core/config.py), or auto: whatever gives most in "
+        "--budget; auto where only a budget is given, else standard",
     )
     parser.add_argument("--size", type=int, metavar="PX", help="short side of the frames while optimising")
     parser.add_argument("--budget", type=seconds, metavar="60s", help="end after this time with what stands")

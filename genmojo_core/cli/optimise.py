@@ -27,6 +27,10 @@ if TYPE_CHECKING:
     from genmojo_core.store.scene_file import BakedScene
 
 
+AUTO_SECONDS = 300.0  # budget of `--preset auto` where none is given
+_GLANCE = 64  # pixels at which one frame is read to learn the clip's size
+
+
 def add_commands(commands: Any) -> None:
     """Add `effects` and `optimize`."""
     effects = commands.add_parser("effects", help="what a clip calls for, and why")
@@ -46,7 +50,7 @@ def add_commands(commands: Any) -> None:
 
 def run_effects(args: argparse.Namespace) -> dict[str, Any]:
     """The effect plan of a clip."""
-    config = preset(args.preset, **arguments.config_changes(args))
+    config = configured(args)
     clip, plan = _prepare(args, config)
     return {"clip": clip.name, "frames": len(clip), "effects": plan.to_json(), "guesses": list(clip.guesses)}
 
@@ -55,7 +59,7 @@ def run_optimize(args: argparse.Namespace) -> dict[str, Any]:
     """Optimise, write the scene, measure it. Ctrl-C ends after the present step and keeps the work (exit 130)."""
     from genmojo_core.store.atomic import check_writable
 
-    config = preset(args.preset, **arguments.config_changes(args))
+    config = configured(args)
     if args.resume and args.run_dir is None:
         raise GenmojoError("argument", "there is no run folder to resume from", "--resume", "give --run-dir")
     check_writable(args.output)
@@ -68,6 +72,23 @@ def run_optimize(args: argparse.Namespace) -> dict[str, Any]:
             compiling.join()
     job = Job(args.output, args.clip, start, args.frames, args.run_dir, args.resume)
     return optimize_clip(clip, plan, config, job)
+
+
+def configured(args: argparse.Namespace) -> RunConfig:
+    """The run's configuration: a preset, or with only a budget what gives most in that time (effects/auto.py).
+
+    Raises GenmojoError as `preset` and reading the clip.
+    """
+    changes = arguments.config_changes(args)
+    name = args.preset or ("auto" if args.budget is not None else "standard")
+    if name != "auto":
+        return preset(name, **changes)
+    from genmojo_core.clip import folders
+    from genmojo_core.effects.auto import for_budget
+
+    first = args.frames[0] if args.frames else 0
+    clip = folders.read(args.clip, frames=(first, first + 1), short_side=_GLANCE, pixel_aspect=args.pixel_aspect)
+    return for_budget(changes.pop("budget_seconds", AUTO_SECONDS), clip, **changes)
 
 
 def _compile_meanwhile(config: RunConfig) -> threading.Thread | None:
@@ -99,14 +120,20 @@ class Job:
 
 def optimize_clip(clip: Clip, plan: EffectPlan, config: RunConfig, job: Job) -> dict[str, Any]:
     """Run to the end or to Ctrl-C, write the scene, measure it; returns what `optimize --json` prints."""
+    from genmojo_core.measure.scoring import Scorer
+    from genmojo_core.measure.truth import find_truth
     from genmojo_core.optimise.run import Run
     from genmojo_core.store import scene_hdf5
 
-    run = Run(clip, plan, config, run_dir=job.run_dir, resume=job.resume)
+    curve_path = Path(job.output).with_suffix(".curve.jsonl")
+    run = Run(clip, plan, config, run_dir=job.run_dir, resume=job.resume, curve_path=curve_path)
+    scorer = None if find_truth(job.source) is None else Scorer(job.source, job.frames)
     watched = _Watched()
     with _stop_on_signal(run) as interrupted, progress("optimising") as tell:
         for event in run:
             watched.hear(event, tell)
+            if scorer is not None:
+                scorer.watch(run)
     if watched.first_scene is None:
         raise watched.fault or GenmojoError("empty", "was interrupted before the first scene stood", job.output,
                                             "let it run a little longer")  # fmt: skip
@@ -153,12 +180,12 @@ def _prepare(args: argparse.Namespace, config: RunConfig) -> tuple[Clip, EffectP
         clip = mask_file.with_masks(clip, args.masks) if args.masks else clip
         tell(1.0)
     with progress("looking at the clip") as tell:
-        clip = complete(clip, boxes=_boxes(args), progress=lambda _, share: tell(share), models=external)
+        clip = complete(clip, boxes=boxes_of(args), progress=lambda _, share: tell(share), models=external)
     clip, overrides = methods.prepared(clip, config.method, overrides)
     return clip, decide.plan(clip, config, overrides)
 
 
-def _boxes(args: argparse.Namespace) -> list[Any]:
+def boxes_of(args: argparse.Namespace) -> list[Any]:
     """The boxes given, one object each, in the frames that are read."""
     if not args.box:
         return []

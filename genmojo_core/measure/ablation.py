@@ -21,6 +21,7 @@ from genmojo_core.estimate.complete import complete
 from genmojo_core.events import EffectChanged, Event, Failed, Finished
 from genmojo_core.measure import truth
 from genmojo_core.measure.reconstruction import SHORT_SIDE, reconstruction
+from genmojo_core.measure.scoring import novel_figures
 from genmojo_core.optimise.methods import prepared
 from genmojo_core.optimise.run import Run
 from genmojo_core.store import scene_hdf5
@@ -28,7 +29,6 @@ from genmojo_core.store.atomic import write_bytes
 from genmojo_core.store.safe import json_text
 
 JITTER = 0.05  # relative standard deviation from frame to frame of worse depth
-NOVEL = {"30": ("0_30", "0_-30", "30_0", "-30_0"), "90": ("0_90", "0_-90"), "180": ("0_180",)}
 
 
 @dataclass(frozen=True)
@@ -123,13 +123,7 @@ def measured(scene_path: Path, clip_path: str) -> dict[str, float]:
     figures: dict[str, Any] = dict(reconstruction(scene, clip))
     truth_path = truth.find_truth(clip_path)
     if truth_path is not None:
-        figures |= truth.track_scores(scene, clip, truth_path)
-        views = truth.novel_scores(scene, clip, truth_path).get("novel", {})
-        for name, members in NOVEL.items():
-            there = [views[m] for m in members if m in views]
-            for key in ("iou", "psnr_inside", "psnr_union"):
-                if there:
-                    figures[f"{key}_{name}"] = float(np.mean([v[key] for v in there]))
+        figures |= truth.track_scores(scene, clip, truth_path) | novel_figures(scene, clip, truth_path)
     return {k: float(v) for k, v in figures.items() if isinstance(v, int | float)}
 
 

@@ -17,16 +17,18 @@ class Deadline:
     """A point in time after which work takes its shortest way to a usable end.
 
     Args:
-        at: seconds of time.perf_counter; infinite = no limit.
+        at: seconds of `clock`; infinite = no limit.
         stopped: asked at every turn; True ends the work as the time does.
+        clock: gives the seconds that count.
     """
 
     at: float = math.inf
     stopped: Callable[[], bool] = _never
+    clock: Callable[[], float] = time.perf_counter
 
     def left(self) -> float:
         """Seconds left; 0 once over."""
-        return 0.0 if self.stopped() else max(0.0, self.at - time.perf_counter())
+        return 0.0 if self.stopped() else max(0.0, self.at - self.clock())
 
     def over(self) -> bool:
         """True once the time is up or an end was asked for."""
@@ -34,7 +36,7 @@ class Deadline:
 
     def part(self, share: float) -> Deadline:
         """A deadline after a share (0..1) of the time left."""
-        return Deadline(time.perf_counter() + share * self.left(), self.stopped)
+        return Deadline(self.clock() + share * self.left(), self.stopped, self.clock)
 
 
 NO_DEADLINE = Deadline()

@@ -42,11 +42,15 @@ def color_loss(rendering: Rendering, target: FrameTargets, inside: Tensor, has_b
     return masked_mean(error, inside * target.seen)
 
 
-def similarity_loss(rendering: Rendering, target: FrameTargets, inside: Tensor) -> Tensor:
-    """1 - SSIM of colour, balanced; a window counts where all its pixels are seen."""
-    seen = target.seen[None] > 0
-    similar = ssim_map(rendering.features[None, ..., :3], target.rgb[None], seen)[0].mean(-1)
-    return balanced(1.0 - similar, inside, whole_windows(seen)[0].float())
+def similarity(rendering: Rendering, target: FrameTargets) -> Tensor:  # (H, W)
+    """SSIM of colour at every pixel, windows with pixels that do not count included."""
+    return ssim_map(rendering.features[None, ..., :3], target.rgb[None])[0].mean(-1)
+
+
+def similarity_loss(similar: Tensor, target: FrameTargets, inside: Tensor) -> Tensor:
+    """1 - SSIM of `similarity`, balanced; a window counts where all its pixels are seen."""
+    whole = whole_windows(target.seen[None] > 0)[0]
+    return balanced(1.0 - torch.where(whole, similar, 1.0), inside, whole.float())
 
 
 def coverage_loss(rendering: Rendering, layout: Layout, target: FrameTargets, inside: Tensor) -> Tensor:

@@ -30,13 +30,23 @@ class TrackSupervision:
     conf: Tensor
 
 
+@dataclass(frozen=True)
+class HeldOut:
+    """One frame's `count` held-out pixels: sums of squared error and of SSIM (of windows around them)."""
+
+    frame: int
+    squared: float
+    similar: float
+    count: int
+
+
 @dataclass
 class Outcome:
-    """Loss of one micro-batch, its weighted parts, and squared errors on held-out and foreground pixels."""
+    """Loss of one micro-batch, its weighted parts, and errors on held-out and foreground pixels."""
 
     loss: Tensor
     parts: dict[str, float]
-    held_out: list[tuple[int, float, int]]  # frame, summed squared error, count
+    held_out: list[HeldOut]
     foreground: list[tuple[int, float]]  # frame, PSNR in dB
 
 
@@ -77,11 +87,13 @@ class Objective:
             after = states.get(t + 1)
             target = self.targets.frame(t)
             rendering = self._render(t, states[t], after)
-            for name, value in self._data_terms(t, states[t], rendering, target).items():
+            with torch.set_grad_enabled(self.compares_windows):
+                similar = losses.similarity(rendering, target)
+            for name, value in self._data_terms(t, states[t], rendering, target, similar).items():
                 terms[name] = terms.get(name, 0.0) + value / len(frames)
             squared = ((rendering.features[..., :3].detach() - target.rgb) ** 2).mean(-1)
             cut = target.held_out
-            held_out.append((t, float(squared[cut].sum()), int(cut.sum())))
+            held_out.append(HeldOut(t, float(squared[cut].sum()), float(similar.detach()[cut].sum()), int(cut.sum())))
             inside = target.labels > 0
             if bool(inside.any()):
                 foreground.append((t, -10.0 * math.log10(max(float(squared[inside].mean()), 1e-10))))
@@ -92,14 +104,24 @@ class Objective:
         loss = torch.stack(list(weighted.values())).sum()
         return Outcome(loss, {n: float(v.detach()) for n, v in weighted.items()}, held_out, foreground)
 
+    def picture(self, t: int, deform: bool) -> Tensor:
+        """Colours (H, W, 3) of frame t as the scene stands, whether or not the frame is in any loss."""
+        states = self.scene.states([t, min(t + 1, self.frames - 1)], deform)
+        return self._render(t, states[0], states[1]).features[..., :3]
+
     def _render(self, t: int, now: list[ObjectState], after: list[ObjectState] | None) -> Rendering:
         layout = self.scene.layout
         c = self.scene.compose(t, now, after if layout.flow else None)
         splats = Splats(c.means, c.quats, c.scales, c.opacities, c.features)
         return self.splat(splats, self.scene.cameras.view(t), detached_channels=2 if layout.flow else 0)
 
+    @property
+    def compares_windows(self) -> bool:
+        """True if SSIM is a part of the loss; without a background the frame's rest is empty and it is not."""
+        return self.weights.ssim > 0 and self.scene.background is not None
+
     def _data_terms(
-        self, t: int, now: list[ObjectState], rendering: Rendering, target: FrameTargets
+        self, t: int, now: list[ObjectState], rendering: Rendering, target: FrameTargets, similar: Tensor
     ) -> dict[str, Tensor]:
         layout = self.scene.layout
         inside = (target.labels > 0).float()
@@ -108,8 +130,8 @@ class Objective:
             "alpha": losses.coverage_loss(rendering, layout, target, inside),
             "depth": losses.depth_loss(rendering, layout, target),
         }
-        if self.weights.ssim > 0 and self.scene.background is not None:
-            terms["ssim"] = losses.similarity_loss(rendering, target, inside)
+        if self.compares_windows:
+            terms["ssim"] = losses.similarity_loss(similar, target, inside)
         if now:
             terms["alpha"] = terms["alpha"] + losses.miss_loss(rendering, layout, target, self._centres(t, now))
         if self.labels:

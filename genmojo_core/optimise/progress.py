@@ -4,21 +4,26 @@ from __future__ import annotations
 
 import math
 import time
-from typing import Any
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any, Literal
 
 from genmojo_core.config import RunConfig, goal_of
 from genmojo_core.events import Step
 from genmojo_core.optimise.gain import StopRule
-from genmojo_core.optimise.objective import Outcome
-from genmojo_core.optimise.schedule import OUTWARD_SHARE, Stage
+from genmojo_core.optimise.objective import HeldOut, Outcome
+from genmojo_core.optimise.schedule import LIFT_SHARE, OUTWARD_SHARE, Pace, Stage
+from genmojo_core.store.atomic import append_line, write_bytes
+from genmojo_core.store.safe import json_text
 
 CURVE_EVERY = 20  # steps between points of the curve
 
 
 class Clock:
-    """Wall and CPU seconds since the optimisation started, over interruptions."""
+    """Wall and CPU seconds since the optimisation started, over interruptions; `counts`: which the budget counts."""
 
-    def __init__(self) -> None:
+    def __init__(self, counts: Literal["wall", "cpu"] = "wall") -> None:
+        self._counts = counts
         self._wall, self._cpu = time.perf_counter(), time.process_time()
         self._earlier = (0.0, 0.0)
         self._held: tuple[float, float] | None = None
@@ -36,11 +41,13 @@ class Clock:
 
     def now(self) -> tuple[float, float]:
         """(wall, CPU) seconds."""
-        return (time.perf_counter() - self._wall + self._earlier[0], time.process_time() - self._cpu + self._earlier[1])
+        wall, cpu = self._held or (time.perf_counter(), time.process_time())
+        return wall - self._wall + self._earlier[0], cpu - self._cpu + self._earlier[1]
 
     def this_run(self) -> float:
-        """Wall seconds since this run started, earlier runs of a resumed one left out: what the budget counts."""
-        return time.perf_counter() - self._wall
+        """Seconds since this run started, earlier runs of a resumed one left out: what the budget counts."""
+        wall, cpu = self._held or (time.perf_counter(), time.process_time())
+        return cpu - self._cpu if self._counts == "cpu" else wall - self._wall
 
     def add(self, wall: float, cpu: float) -> None:
         """Count the seconds of the run that is being resumed."""
@@ -60,11 +67,13 @@ class Progress:
         self.total = max(1, sum(s.steps for s in stages))
         self.curve: list[dict[str, float]] = []
         self.window = max(8, frames)
-        self._held: dict[int, tuple[float, int]] = {}  # latest held-out error of every frame
+        self.curve_path: Path | None = None
+        self._held: dict[int, HeldOut] = {}  # latest held-out errors of every frame
         self._last: Outcome | None = None
         self._stage = stages[0]
         self._stage_step = 0
         self._saved_at = 0.0
+        self._pace: Pace | None = None
         self._goal = goal_of(config.until)
         self._rule = StopRule()
 
@@ -75,24 +84,47 @@ class Progress:
         self._stage_step = min(max(self.step - before, 0), stage.steps)
         return self._stage_step
 
-    def advance(self, outcome: Outcome, clock: Clock, gaussians: int) -> None:
-        """Count a step and, every CURVE_EVERY of them, add a point to the curve."""
+    def advance(self, outcome: Outcome) -> bool:
+        """Count a step; True if the curve should get a point now."""
         self.step += 1
         self._stage_step += 1
         self._last = outcome
-        for frame, error, count in outcome.held_out:
-            if count:
-                self._held[frame] = (error, count)
-        if self.step % CURVE_EVERY == 0 or self.step == 1:
-            wall, cpu = clock.now()
-            self.curve.append({"seconds": wall, "cpu_seconds": cpu, "step": float(self.step),
-                               "psnr_held_out": self.psnr(), "gaussians": float(gaussians)})  # fmt: skip
+        self._held.update({row.frame: row for row in outcome.held_out if row.count})
+        return self.step % CURVE_EVERY == 0 or self.step == 1
+
+    def point(self, clock: Clock, gaussians: int, **figures: float) -> None:
+        """Add a point to the curve, with further figures of this moment, and a line to its file if it has one.
+
+        Raises GenmojoError("io").
+        """
+        wall, cpu = clock.now()
+        row = {"seconds": wall, "cpu_seconds": cpu, "step": float(self.step), "gaussians": float(gaussians)}
+        self.curve.append({**row, "psnr_held_out": self.psnr(), "ssim_held_out": self.ssim(), **figures})
+        if self.curve_path is not None:
+            append_line(self.curve_path, json_text(self.curve[-1]), first=len(self.curve) == 1)
 
     def psnr(self) -> float:
         """PSNR in dB over the held-out blocks of all frames, each as last rendered; 0 if there are none."""
-        error = sum(e for e, _ in self._held.values())
-        count = sum(n for _, n in self._held.values())
+        error = sum(row.squared for row in self._held.values())
+        count = sum(row.count for row in self._held.values())
         return -10.0 * math.log10(max(error / count, 1e-10)) if count else 0.0
+
+    def ssim(self) -> float:
+        """Mean SSIM of the windows around held-out pixels, each as last rendered; 0 if there are none."""
+        count = sum(row.count for row in self._held.values())
+        return sum(row.similar for row in self._held.values()) / count if count else 0.0
+
+    def pace(self, stage: Stage, done: int, clock: Clock) -> Stage:
+        """In a paced run: the stage with as many steps as its time allows, known from now on."""
+        now, budget = clock.this_run(), self.config.budget_seconds
+        if self._pace is None or self._pace.name != stage.name:
+            share = 1.0 if stage is self.stages[-1] else LIFT_SHARE
+            self._pace = Pace(stage.name, done, now, now + share * max(budget - now, 0.0))
+        fitted = self._pace.refit(stage, done, now)
+        self.stages = [fitted if known is stage else known for known in self.stages]
+        self._stage = fitted
+        self.total = max(1, sum(s.steps for s in self.stages))
+        return fitted
 
     def fraction(self, clock: Clock) -> float:
         """0..1 of the run done, by steps or by budget, whichever is further."""
@@ -133,10 +165,12 @@ class Progress:
 
     def state(self) -> dict[str, Any]:
         """JSON-able state for a checkpoint."""
-        return {"step": self.step, "curve": self.curve, "held": [[k, *v] for k, v in self._held.items()]}
+        return {"step": self.step, "curve": self.curve, "held": [asdict(row) for row in self._held.values()]}
 
     def restore(self, meta: dict[str, Any]) -> None:
         """The state of a checkpoint."""
         self.step = int(meta["step"])
         self.curve = list(meta["curve"])
-        self._held = {int(k): (float(e), int(n)) for k, e, n in meta["held"]}
+        self._held = {int(row["frame"]): HeldOut(**row) for row in meta["held"]}
+        if self.curve_path is not None and self.curve:
+            write_bytes(self.curve_path, "".join(f"{json_text(row)}\n" for row in self.curve).encode())

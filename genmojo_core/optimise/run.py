@@ -37,9 +37,10 @@ from genmojo_core.optimise.bake import Provenance, bake
 from genmojo_core.optimise.deadline import Deadline
 from genmojo_core.optimise.first_poses import Moves, first_poses, usable_motion
 from genmojo_core.optimise.guard import Guard
+from genmojo_core.optimise.held_out import held_frame_psnr, held_frames, without
 from genmojo_core.optimise.lift import Lifted, lift, track_supervision
 from genmojo_core.optimise.live import LiveFrame, live_frame
-from genmojo_core.optimise.motion import initial_motion
+from genmojo_core.optimise.motion import ObjectMotion, initial_motion
 from genmojo_core.optimise.objective import Objective, Outcome, TrackSupervision
 from genmojo_core.optimise.progress import Clock, Progress
 from genmojo_core.optimise.regularise import Neighbours
@@ -62,6 +63,8 @@ from genmojo_core.store.scene_file import BakedScene
 SNAPSHOT_EVERY = 50  # steps
 PREVIEW_EVERY = 25  # steps
 MOTION_SHARE = 0.4  # of the budget
+PACE_EVERY = 5  # steps
+CURVE = "curve.jsonl"  # in the run folder: the curve, a row a line
 
 
 class Run:
@@ -73,6 +76,8 @@ class Run:
 
     Iterating yields events and ends with Finished or Failed. `stop()` may be called from another thread or a signal
     handler: the loop ends after the present step with what it has. `bake()` works after the first Preview.
+    `curve_path` says where the curve goes line by line; by default curve.jsonl in the run folder, if there is one.
+    `motions`, set before, spare a run the search for the objects' motion that another of the same clip did.
     Between two events the caller may `change` a parameter, write a `checkpoint`, look at `live` Gaussians, or wait
     (with `clock.hold()` and `clock.go_on()` around it).
 
@@ -81,13 +86,18 @@ class Run:
     """
 
     def __init__(
-        self, clip: Clip, plan: EffectPlan, config: RunConfig, run_dir: str | Path | None = None, resume: bool = False
-    ) -> None:
-        self.clip, self.plan, self.config = clip, plan, config
+        self, clip: Clip, plan: EffectPlan, config: RunConfig, run_dir: str | Path | None = None, resume: bool = False,
+        curve_path: Path | None = None,
+    ) -> None:  # fmt: skip
+        self.held = held_frames(len(clip), config.held_out_every)
+        self.whole, self.clip = clip, without(clip, self.held)
+        self.plan, self.config = plan, config
         self.run_dir = None if run_dir is None else Path(run_dir)
         self.resume = resume
-        self.clock = Clock()
+        self.clock = Clock(config.clock)
         self.progress = Progress(config, stages(config, len(clip)), len(clip))
+        self.progress.curve_path = curve_path or (None if self.run_dir is None else self.run_dir / CURVE)
+        self.motions: list[ObjectMotion] | None = None
         self.stopped = False
         self.goal = False
         self.unseen: UnseenViews | None = None
@@ -131,6 +141,38 @@ class Run:
         self.changes.append(ParameterChanged(*self.clock.now(), self.progress.step, name, old, new))
         return self.changes[-1]
 
+    def add_point(self, **figures: float) -> None:
+        """A point of the accuracy-against-time curve, with further figures of this moment; scoring takes no time.
+
+        Raises GenmojoError("io") where the curve's file cannot be written.
+        """
+        self.clock.hold()
+        if self.held:
+            deform = self.progress.stages[-1].deform
+            figures["psnr_held_frames"] = held_frame_psnr(self.objective, self.whole, self.held, deform)
+        self.progress.point(self.clock, len(self.scene), **figures)
+        self.clock.go_on()
+
+    def timed_steps(self, count: int) -> list[tuple[float, float]]:
+        """(wall, CPU) seconds of `count` joint steps from rough poses: what a step costs here, without the motion.
+
+        The run is spent afterwards. Raises GenmojoError("empty") as `lift`.
+        """
+        threads = torch.get_num_threads()
+        torch.set_num_threads(1)
+        try:
+            self._build(lift(self.clip, self.plan, self.config, first_poses(self.clip)), [])
+            self._start()
+            stage, times = Stage("joint", count, len(self.clip) > 1), []
+            for _ in range(count):
+                before = self.clock.now()
+                self.progress.advance(self._step(stage, count - 1))
+                after = self.clock.now()
+                times.append((after[0] - before[0], after[1] - before[1]))
+            return times
+        finally:
+            torch.set_num_threads(threads)
+
     def checkpoint(self) -> Checkpointed | None:
         """Write a checkpoint now; None before the first step or without a run folder. Raises GenmojoError("io")."""
         return next(self._checkpoint(), None) if hasattr(self, "guard") else None
@@ -154,7 +196,8 @@ class Run:
         self._build(lift(self.clip, self.plan, self.config, first_poses(self.clip)), [])
         yield Preview(*self.clock.now(), "first scene", 0, self.reference, self._reference_psnr())
         yield StageStarted(*self.clock.now(), "motion", 0, "following every object through the clip")
-        motions = initial_motion(self.clip, deadline=self._motion_deadline())
+        motions = self.motions or initial_motion(self.clip, deadline=self._motion_deadline())
+        self.motions = motions
         if any(motion.hurried for motion in motions):
             yield Warned(
                 *self.clock.now(), "motion_cut", "there was no time to follow every object exactly; give more budget"
@@ -186,7 +229,8 @@ class Run:
     def _motion_deadline(self) -> Deadline:
         """The initial motion takes at most a share of the budget, and ends when the run is stopped."""
         left = MOTION_SHARE * self.config.budget_seconds - self.clock.this_run()
-        return Deadline(time.perf_counter() + left, lambda: self.stopped)
+        now = time.process_time if self.config.clock == "cpu" else time.perf_counter
+        return Deadline(now() + left, lambda: self.stopped, now)
 
     def _build(self, lifted: Lifted, tracks: list[TrackSupervision]) -> None:
         """The scene and what it is compared with."""
@@ -235,18 +279,22 @@ class Run:
         if start >= stage.steps:
             return
         yield StageStarted(*self.clock.now(), stage.name, stage.steps, "")
-        for i in range(start, stage.steps):
-            outcome = None
+        i = start
+        while i < stage.steps:
             for message in self.guard.quarantine():
                 yield Warned(*self.clock.now(), "not_finite", message)
             outcome = self._step(stage, i)
-            self.progress.advance(outcome, self.clock, len(self.scene))
+            i += 1
+            if self.config.paced and (i < PACE_EVERY or i % PACE_EVERY == 0):
+                stage = self.progress.pace(stage, i, self.clock)
+            if self.progress.advance(outcome):
+                self.add_point()
             yield self.progress.event(self.clock, len(self.scene))
             reason = self.unseen.objection(self.progress.psnr()) if self.unseen is not None else ""
             if reason:
                 self.unseen = None
                 yield EffectChanged(*self.clock.now(), "unseen_views", False, reason)
-            if (i + 1) % self.config.densify_every == 0 and i + 1 < 0.8 * stage.steps:
+            if i % self.config.densify_every == 0 and i < 0.8 * stage.steps:
                 self._control_density()
             if self.progress.step % SNAPSHOT_EVERY == 0:
                 for model in self.scene.objects:
@@ -263,7 +311,8 @@ class Run:
     def _step(self, stage: Stage, i: int) -> Outcome:
         """One optimiser step."""
         share = i / stage.steps if stage.deform else 0.1
-        candidates = frames_in_play(len(self.clip), self.reference, share if len(self.clip) > 1 else 1.0)
+        share = share if len(self.clip) > 1 else 1.0
+        candidates = frames_in_play(len(self.clip), self.reference, share, self.held)
         frames = draw_frames(candidates, self.config.frames_per_step, self.config.seed, self.progress.step)
         set_rates(self.optimiser, self.progress.fraction(self.clock))
         self.optimiser.zero_grad(set_to_none=True)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import torch
@@ -13,6 +14,7 @@ from genmojo_core.scene.scene4d import Scene4D
 
 FINAL_RATE = 0.1  # of the first learning rate, reached at the end
 OUTWARD_SHARE = 0.3  # of the joint stage, by which all frames take part
+LIFT_SHARE = 0.15  # of a paced run's time after the motion
 
 
 @dataclass(frozen=True)
@@ -29,14 +31,33 @@ def stages(config: RunConfig, frames: int) -> list[Stage]:
     return [Stage("lift", config.lift_steps, False), Stage("joint", config.joint_steps, frames > 1)]
 
 
-def frames_in_play(frames: int, centre: int, share: float) -> np.ndarray:
+class Pace:
+    """Fits the steps of a stage to the time it has, from the time its steps have taken so far.
+
+    Args:
+        name: of the stage. done: its steps so far. now: seconds of the run at which it goes on. end: when it must.
+    """
+
+    def __init__(self, name: str, done: int, now: float, end: float) -> None:
+        self.name = name
+        self._before, self._began, self._end = done, now, end
+
+    def refit(self, stage: Stage, done: int, now: float) -> Stage:
+        """The stage with as many steps as there will be time for; at least those done."""
+        if done <= self._before:
+            return stage
+        left = max(self._end - now, 0.0) * (done - self._before) / max(now - self._began, 1e-9)
+        return replace(stage, steps=done + int(left))
+
+
+def frames_in_play(frames: int, centre: int, share: float, held: Sequence[int] = ()) -> np.ndarray:
     """Frames that take part, outward from the canonical frame: a window that grows to the whole clip.
 
     Args:
-        share: 0..1 of the stage done.
+        share: 0..1 of the stage done. held: frames that never take part.
     """
     reach = 2 + math.ceil((frames - 1) * min(1.0, share / OUTWARD_SHARE))
-    everything = np.arange(frames)
+    everything = np.setdiff1d(np.arange(frames), held)
     return everything[np.abs(everything - centre) <= reach]
 
 

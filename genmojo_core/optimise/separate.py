@@ -11,6 +11,7 @@ from dataclasses import replace
 import torch
 from torch import Tensor
 
+from genmojo_core.optimise import losses
 from genmojo_core.optimise.objective import Objective
 from genmojo_core.optimise.targets import FrameTargets
 from genmojo_core.render.rasterizer import Rendering, Splats
@@ -26,7 +27,7 @@ class SeparateObjective(Objective):
             return super()._render(t, now, after)
 
     def _data_terms(
-        self, t: int, now: list[ObjectState], rendering: Rendering, target: FrameTargets
+        self, t: int, now: list[ObjectState], rendering: Rendering, target: FrameTargets, similar: Tensor
     ) -> dict[str, Tensor]:
         self.order = False
         terms: dict[str, Tensor] = {}
@@ -36,7 +37,7 @@ class SeparateObjective(Objective):
             others = (target.labels > 0) & ~own
             seen = target.seen * (~others).float()
             mine = replace(target, labels=torch.where(own, target.labels, 0), seen=seen)
-            values = super()._data_terms(t, now, alone, mine)
+            values = super()._data_terms(t, now, alone, mine, losses.similarity(alone, mine))
             inside = own.float()
             coverage = alone.features[..., 3 : 3 + self.scene.layout.labels].sum(-1)
             values["alpha"] = ((coverage - inside) ** 2 * target.seen).mean() / inside.mean().clamp(min=1e-3)

@@ -29,6 +29,16 @@ def write_bytes(path: str | Path, data: bytes | memoryview) -> None:
         part.write_bytes(data)
 
 
+def append_line(path: str | Path, line: str, first: bool = False) -> None:
+    """Add a line to a text file, or begin it anew with its first. Raises GenmojoError("io")."""
+    try:
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+        with open(path, "w" if first else "a", encoding="utf-8") as stream:
+            stream.write(line + "\n")
+    except OSError as error:
+        raise _fault(error, path) from error
+
+
 @contextmanager
 def staged(path: str | Path) -> Iterator[Path]:
     """A temporary name (`<name>.<random>.part`) beside `path` to write to; renamed to `path` when the block ends well.

@@ -240,7 +240,7 @@ class FakeRun:
     presses: int | None = None
     fails = False
 
-    def __init__(self, clip, plan, config, run_dir=None, resume=False) -> None:
+    def __init__(self, clip, plan, config, run_dir=None, resume=False, curve_path=None) -> None:
         self.stopped = False
 
     def stop(self) -> None:
