@@ -21,7 +21,8 @@ def add_commands(commands: Any) -> None:
     ablate.add_argument("--budget", type=seconds, default=120.0, metavar="120s", help="per variant and seed")
     ablate.add_argument("--seeds", type=int, default=3, metavar="N", help="runs per variant")
     ablate.add_argument("--variants", type=names, default=(), metavar="a,b", help="full, no_joint, no_prior, "
-                        "scene_prior, no_labels, worse_depth; default all")  # fmt: skip
+                        "scene_prior, no_labels, worse_depth (default: these), and other methods as configurations of "
+                        "this engine: dreamscene4d, dreamgaussian4d, shape-of-motion")  # fmt: skip
     ablate.add_argument("--prior", default="embedded", help="of the full model")
     ablate.add_argument("--device", default="auto")
     ablate.set_defaults(run=run_ablate)

@@ -33,7 +33,7 @@ JITTER = 0.05  # relative standard deviation from frame to frame of worse depth
 
 @dataclass(frozen=True)
 class Variant:
-    """The full model with one thing taken away.
+    """The full model with one thing taken away, or another method's idea in our engine (optimise/methods.py).
 
     Args:
         title: as in the table. changes: of the configuration. effects: switched by hand. worse_depth: given depth is
@@ -54,6 +54,11 @@ VARIANTS: dict[str, Variant] = {
     "no_labels": Variant("w/o instance labels", effects={"instance_labels": False}),
     "worse_depth": Variant("worse depth", worse_depth=True),
 }
+OTHERS: dict[str, Variant] = {
+    "dreamscene4d": Variant("as DreamScene4D", {"method": "dreamscene4d"}),
+    "dreamgaussian4d": Variant("as DreamGaussian4D", {"method": "dreamgaussian4d"}),
+    "shape-of-motion": Variant("as Shape of Motion", {"method": "shape-of-motion"}),
+}
 
 
 @dataclass(frozen=True)
@@ -73,19 +78,20 @@ def ablate(clip_path: str, plan: Plan, folder: Path, hear: Callable[[str, Event]
 
     Raises GenmojoError: "argument" for an unknown variant, "numeric" where a run fails, and as reading the clip.
     """
-    unknown = [name for name in plan.variants if name not in VARIANTS]
+    known = VARIANTS | OTHERS
+    unknown = [name for name in plan.variants if name not in known]
     if unknown:
         raise GenmojoError("argument", f"there is no variant {', '.join(unknown)}", "--variants",
-                           f"use {', '.join(VARIANTS)}")  # fmt: skip
+                           f"use {', '.join(known)}")  # fmt: skip
     rows = []
     for seed in plan.seeds:
         for name in plan.variants:
-            config = replace(plan.config, seed=seed, **VARIANTS[name].changes)
+            config = replace(plan.config, seed=seed, **known[name].changes)
             path = folder / "runs" / f"{name}-{seed}.json"
             row = _kept(path, config, clip_path)
             if row is None:
                 listen = partial(hear, f"{name}, seed {seed}")
-                figures = run_variant(clip_path, VARIANTS[name], config, path.with_suffix(".h5"), listen)
+                figures = run_variant(clip_path, known[name], config, path.with_suffix(".h5"), listen)
                 row = {"variant": name, "seed": seed, "digest": _digest(config, clip_path), **figures}
                 write_bytes(path, json_text(row).encode())
             rows.append(row)
@@ -111,9 +117,11 @@ def run_variant(
             said.append(event.reason)
         if isinstance(event, Finished):
             seconds, cpu, steps = event.seconds, event.cpu_seconds, event.step
+            if event.reason == "budget":
+                said.append(f"the budget ended a run after {steps} of {run.progress.total} steps")
     scene_hdf5.write(run.bake(), scene_path)
     figures = measured(scene_path, clip_path)
-    return {**figures, "seconds": seconds, "cpu_seconds": cpu, "steps": steps, "notes": said}
+    return {**figures, "seconds": seconds, "cpu_seconds": cpu, "steps": float(steps), "notes": said}
 
 
 def measured(scene_path: Path, clip_path: str) -> dict[str, float]:
@@ -137,7 +145,10 @@ def with_jitter(clip: Clip, seed: int) -> Clip:
 
 
 def summary(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Mean and standard deviation over seeds of every figure, one entry per variant; `saves` CPU seconds of full."""
+    """Mean and standard deviation over seeds of every figure, one entry per variant; `saves` CPU seconds of full.
+
+    Rows that the budget cut short say so in the notes: compare them by their steps.
+    """
     names = list(dict.fromkeys(row["variant"] for row in rows))
     entries: list[dict[str, Any]] = []
     for name in names:
@@ -145,11 +156,13 @@ def summary(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
         keys = [k for k, v in own[0].items() if isinstance(v, float)]
         means = {k: float(np.mean([r[k] for r in own if k in r])) for k in keys}
         spread = {k: float(np.std([r[k] for r in own if k in r])) for k in keys}
-        entries.append({"variant": name, "title": VARIANTS[name].title, "seeds": len(own), "mean": means,
+        entries.append({"variant": name, "title": (VARIANTS | OTHERS)[name].title, "seeds": len(own), "mean": means,
                         "spread": spread, "notes": sorted({n for r in own for n in r.get("notes", [])})})  # fmt: skip
     full = next((e for e in entries if e["variant"] == "full"), None)
     for entry in entries:
-        entry["saves"] = full["mean"]["cpu_seconds"] - entry["mean"]["cpu_seconds"] if full else 0.0
+        if full is not None and entry is not full:
+            entry["mean"]["saves"] = full["mean"]["cpu_seconds"] - entry["mean"]["cpu_seconds"]
+            entry["spread"]["saves"] = float(np.hypot(full["spread"]["cpu_seconds"], entry["spread"]["cpu_seconds"]))
     return entries
 
 

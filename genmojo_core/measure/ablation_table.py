@@ -13,13 +13,14 @@ import numpy as np
 from genmojo_core.measure.sheet import encode_png
 from genmojo_core.store.atomic import write_bytes
 
-# figure, heading, more is better, digits
-COLUMNS: tuple[tuple[str, str, bool, int], ...] = (
+# figure, heading, more is better (None: neither), digits
+COLUMNS: tuple[tuple[str, str, bool | None, int], ...] = (
     ("ate", "ATE", False, 2), ("mte", "MTE", False, 2), ("a_epe", "A-EPE", False, 2), ("m_epe", "M-EPE", False, 2),
     ("oa", "OA", True, 1), ("psnr", "PSNR", True, 2), ("iou_30", "IoU 30", True, 3),
     ("psnr_inside_30", "in 30", True, 2), ("iou_90", "IoU 90", True, 3), ("psnr_inside_90", "in 90", True, 2),
     ("psnr_union_90", "union 90", True, 2), ("iou_180", "IoU 180", True, 3), ("psnr_inside_180", "in 180", True, 2),
     ("psnr_union_180", "union 180", True, 2), ("cpu_seconds", "CPU s", False, 0),
+    ("saves", "saves s", None, 0), ("steps", "steps", None, 0),
 )  # fmt: skip
 _ROW, _FIRST, _WIDTH = 34, 230, 98  # pixels
 
@@ -37,7 +38,7 @@ def cells(entries: Sequence[Mapping[str, Any]]) -> tuple[list[str], list[list[st
             if value is not None and entry["seeds"] > 1:
                 text += f" ±{entry['spread'][key]:.{digits}f}"
             line.append(text)
-            marks.append(value is not None and value == (max(every) if more else min(every)))
+            marks.append(value is not None and more is not None and value == (max(every) if more else min(every)))
         texts.append(line)
         best.append(marks)
     return ["variant", *(c[1] for c in columns)], texts, best
@@ -56,8 +57,8 @@ def write_html(entries: Sequence[Mapping[str, Any]], title: str, path: Path) -> 
         "margin:2em}table{border-collapse:collapse}td,th{padding:.35em .8em;text-align:right;border-bottom:1px solid "
         "#ccc}td:first-child,th:first-child{text-align:left}.best{font-weight:bold}</style>"
         f"<h1>{html.escape(title)}</h1><table>{''.join(lines)}</table><p>Tracks in pixels of 256 x 256; IoU of "
-        "silhouettes, PSNR inside both silhouettes (in) and in either (union) at ±30, ±90 and 180 degrees; bold is "
-        f"best. Means over seeds, ± standard deviation.</p><ul>{notes}</ul>"
+        "silhouettes, PSNR inside both silhouettes (in) and in either (union) at ±30, ±90 and 180 degrees; saves: CPU "
+        f"seconds against full; bold is best. Means over seeds, ± standard deviation.</p><ul>{notes}</ul>"
     )
     write_bytes(path, page.encode())
 

@@ -34,7 +34,9 @@ def test_summary_averages_over_seeds_and_counts_what_is_saved():
             for v, c in (("full", 30.0), ("no_prior", 20.0)) for s in (0, 1)]  # fmt: skip
     full, without = ablation.summary(rows)
     assert full["mean"]["psnr"] == 20.5 and full["spread"]["psnr"] == 0.5 and full["notes"] == ["x"]
-    assert (full["saves"], without["saves"]) == (0.0, 10.0)
+    assert without["mean"]["saves"] == 10.0 and "saves" not in full["mean"]
+    heads, texts, best = ablation_table.cells([full, without])
+    assert heads[-1] == "saves s" and texts[1][-1] == "10 ±0" and not best[1][-1]
 
 
 def test_jitter_keeps_the_picture_of_depth_and_changes_its_scale():
@@ -49,11 +51,19 @@ def test_unknown_variants_are_named(tmp_path):
         ablation.ablate("nowhere", ablation.Plan(("colour",), (0,), small_config()), tmp_path, lambda *_: None)
 
 
+def test_a_row_that_the_budget_cut_short_says_so(tmp_path):
+    base = replace(spec("crossing-shapes"), frames=3, size=(80, 45), novel_every=0)
+    synthetic_files.write(*synthetic.generate(base), tmp_path / "clip")
+    plan = ablation.Plan(("full",), (0,), small_config(lift_steps=2, joint_steps=500, budget_seconds=1.0, prior="none"))
+    row = ablation.ablate(str(tmp_path / "clip"), plan, tmp_path / "out", lambda *_: None)[0]
+    assert row["steps"] < 502 and any("the budget ended a run" in note for note in row["notes"])
+
+
 @pytest.mark.slow
 def test_rows_are_measured_against_truth_and_not_run_twice(tmp_path):
     base = replace(spec("crossing-shapes"), frames=4, size=(112, 63))
     synthetic_files.write(*synthetic.generate(base), tmp_path / "clip")
-    plan = ablation.Plan(("full", "no_joint", "worse_depth"), (0,), small_config(lift_steps=2, joint_steps=2))
+    plan = ablation.Plan(("full", "no_joint", "worse_depth", *ablation.OTHERS), (0,), small_config(lift_steps=2, joint_steps=2))
     heard = []
     args = (str(tmp_path / "clip"), plan, tmp_path / "out", lambda name, event: heard.append(name))
     rows = ablation.ablate(*args)
