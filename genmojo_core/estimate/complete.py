@@ -14,6 +14,7 @@ from genmojo_core.clip.clip import Channel, Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.estimate import background, cameras, depth, flow, order
 from genmojo_core.estimate.depth_align import fit_alignment, floor_alignment, steady
+from genmojo_core.estimate.depth_jitter import without_jitter
 from genmojo_core.estimate.masks import Box, Prompt, Scribble
 from genmojo_core.estimate.models import DepthPrediction, Models
 from genmojo_core.estimate.objects import with_objects
@@ -54,6 +55,7 @@ def complete(
     prediction = models.depth.predict(clip) if models.depth else None
     clip = _with_model_depth(clip, prediction, free)
     clip, points = _with_cameras(clip, free)
+    clip = without_jitter(clip, free)
     tell("depth", 0.7)
     clip = _with_depth(clip, free, points)
     tell("background", 0.85)

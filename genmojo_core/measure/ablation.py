@@ -105,7 +105,7 @@ def run_variant(
     ignore = (*config.ignore, "depth") if variant.worse_depth else config.ignore
     clip = complete(folders.read(clip_path, short_side=config.short_side, ignore=ignore))
     if variant.worse_depth:
-        clip = with_jitter(clip, config.seed)
+        clip = complete(with_jitter(clip, config.seed))  # jitter is part of the input, so what cures it may
     clip, switched = prepared(clip, config.method, variant.effects)
     run = Run(clip, decide.plan(clip, config, switched), config)
     said: list[str] = []

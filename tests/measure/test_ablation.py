@@ -63,7 +63,9 @@ def test_a_row_that_the_budget_cut_short_says_so(tmp_path):
 def test_rows_are_measured_against_truth_and_not_run_twice(tmp_path):
     base = replace(spec("crossing-shapes"), frames=4, size=(112, 63))
     synthetic_files.write(*synthetic.generate(base), tmp_path / "clip")
-    plan = ablation.Plan(("full", "no_joint", "worse_depth", *ablation.OTHERS), (0,), small_config(lift_steps=2, joint_steps=2))
+    plan = ablation.Plan(
+        ("full", "no_joint", "worse_depth", *ablation.OTHERS), (0,), small_config(lift_steps=2, joint_steps=2)
+    )
     heard = []
     args = (str(tmp_path / "clip"), plan, tmp_path / "out", lambda name, event: heard.append(name))
     rows = ablation.ablate(*args)
