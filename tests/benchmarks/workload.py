@@ -62,7 +62,8 @@ def count_pairs(drawn: object) -> int:
     from genmojo_core.render.cpu.project import GEOMETRY
 
     bins, drawing = drawn.bins, drawn.passes[0].drawing
-    records = drawing.records.reshape(len(bins.order), -1)[:, :GEOMETRY].astype(np.float64)
+    width = GEOMETRY + drawing.slots
+    records = drawing.records[: len(bins.order) * width].reshape(-1, width)[:, :GEOMETRY].astype(np.float64)
     pairs = 0
     y, x = np.meshgrid(np.arange(16) + 0.5, np.arange(16) + 0.5, indexing="ij")
     for tile in range(bins.tiles_x * bins.tiles_y):

@@ -73,8 +73,8 @@ class Slopes(NamedTuple):
 
 
 def slope_floats(slots: int) -> int:
-    """Size of the scratch of `slope_tiles`; one block to spare, because channel_sums reads over the end."""
-    return STATE + (BLOCKS + 1) * (HEADER + slots) * LANES
+    """Size of the scratch of `slope_tiles`; some to spare: loops over several slots read over the end."""
+    return STATE + BLOCKS * (HEADER + slots) * LANES + 8 * LANES
 
 
 @inlined
@@ -98,26 +98,22 @@ def read_tile(drawing: Drawing, slopes: Slopes, scratch: np.ndarray, place: tupl
 
 
 @inlined
-def weighted_gradient(scratch: np.ndarray, cell: int, records: np.ndarray, first: int, attached: int) -> object:
-    """q = g_alpha + sum of g_c f_c over the attached channels, in two chains."""
-    q, r = load8(scratch, cell + 2 * LANES), splat8(np.float32(0))
-    gradients = cell + HEADER * LANES
-    for group in range(attached >> 3):
-        for k in range(4):
-            c = 8 * group + 2 * k
-            q = fma(broadcast8(records, first + c), load8(scratch, gradients + c * LANES), q)
-            r = fma(broadcast8(records, first + c + 1), load8(scratch, gradients + (c + 1) * LANES), r)
-    for c in range(attached & ~7, attached, 2):
-        q = fma(broadcast8(records, first + c), load8(scratch, gradients + c * LANES), q)
-        r = fma(broadcast8(records, first + c + 1), load8(scratch, gradients + (c + 1) * LANES), r)
-    return q + r
-
-
-@inlined
 def replay(records: np.ndarray, first: int, mask: int, sizes: tuple, scratch: np.ndarray) -> None:
-    """Second loop of one entry: blend again with the alphas just written; leave w and v block by block."""
+    """Second loop of one entry: blend again with the alphas just written; leave w and v block by block.
+
+    q = g_alpha + sum of g_c f_c over the attached channels: eight of them stay in registers, those that are not
+    attached being 0; the rest follows in a loop.
+    """
     attached, stride = sizes
     zero, one = splat8(np.float32(0)), splat8(np.float32(1))
+    f0, f1 = broadcast8(records, first), broadcast8(records, first + 1)
+    f2, f3, f4, f5, f6, f7 = zero, zero, zero, zero, zero, zero
+    if attached > 2:
+        f2, f3 = broadcast8(records, first + 2), broadcast8(records, first + 3)
+    if attached > 4:
+        f4, f5 = broadcast8(records, first + 4), broadcast8(records, first + 5)
+    if attached > 6:
+        f6, f7 = broadcast8(records, first + 6), broadcast8(records, first + 7)
     place = 0
     while mask != 0:
         cell = STATE + trailing_zeros(mask) * stride
@@ -125,12 +121,19 @@ def replay(records: np.ndarray, first: int, mask: int, sizes: tuple, scratch: np
         t, full = load8(scratch, cell), load8(scratch, ALPHAS + place)
         alpha = min8(full, MOST)
         part = alpha * t
-        seen, rest = part > zero, t - part
-        going = seen & (rest > STOP)
-        after = select8(rest > STOP, rest, zero - t)
-        store8(scratch, cell, select8(seen, after, t))
+        rest = t - part
+        going = (part > zero) & (rest > STOP)
+        store8(scratch, cell, select8(rest > STOP, rest, min8(t, zero - t)))
         w = select8(going, part, zero)
-        q = weighted_gradient(scratch, cell, records, first, attached)
+        g = cell + HEADER * LANES
+        q = fma(f0, load8(scratch, g), load8(scratch, cell + 2 * LANES))
+        r = f1 * load8(scratch, g + 8)
+        q, r = fma(f2, load8(scratch, g + 16), q), fma(f3, load8(scratch, g + 24), r)
+        q, r = fma(f4, load8(scratch, g + 32), q), fma(f5, load8(scratch, g + 40), r)
+        q, r = fma(f6, load8(scratch, g + 48), q), fma(f7, load8(scratch, g + 56), r)
+        for c in range(8, attached):
+            q = fma(broadcast8(records, first + c), load8(scratch, g + c * LANES), q)
+        q = q + r
         s = load8(scratch, cell + LANES) - w * q
         store8(scratch, cell + LANES, s)
         store8(scratch, WEIGHTS + place, w)

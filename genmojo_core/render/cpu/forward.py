@@ -1,15 +1,16 @@
 """Front-to-back blending, one tile of 16 x 16 pixels at a time.
 
-A tile is 32 blocks of 4 x 2 pixels; a block is one eight-lane vector. Per entry a 32-bit mask of the blocks inside the
-splat's box (and still alive) is walked by its lowest set bit. Per block and splat
+A tile is 32 blocks of 4 x 2 pixels; a block is one eight-lane vector. A tile's splats are taken in chunks: their
+records are copied side by side, and since every splat has a box, two sets of bits say which splats of the chunk touch
+a column of blocks and which a row of them. Both together are the splats of a block, walked by the lowest set bit while
+the block's pixels stay in registers. Per block and splat
 
     e = log2(alpha) = log2(o) + A dx^2 + B dx dy + C dy^2      (A, B, C carry the conic and log2 e)
-    seen = e >= log2(1/255) and T > 0                          (the cut comes before the exponential)
-    alpha = min(0.99, 2^e);  rest = T - alpha T;  stop = rest <= 1e-4
-    w = alpha T where seen and not stop;  out_c += w f_c;  T <- rest, or -T where stop
+    alpha = min(0.99, 2^e) where e >= log2(1/255), else 0;  rest = T - alpha T;  stop = rest <= 1e-4
+    w = alpha T where T > 0 and not stop;  out_c += w f_c;  T <- rest, or -T where stop
 
-A negative T marks a finished pixel and keeps its final transmittance; a block whose pixels are all finished leaves the
-mask, a tile without blocks ends. The blocks that were seen are stored per entry: backward needs no culling.
+A negative T marks a finished pixel and keeps its final transmittance; a block whose pixels are all finished is left
+out from then on, a tile without blocks ends. The blocks that saw an entry are stored: backward needs no culling.
 """
 
 from __future__ import annotations
@@ -24,7 +25,6 @@ from genmojo_core.kernels.scalars import larger, smaller
 from genmojo_core.kernels.simd import (
     EXP2_FLOATS,
     any_lane,
-    bits,
     broadcast8,
     exp2_8,
     fma,
@@ -36,6 +36,7 @@ from genmojo_core.kernels.simd import (
     splat8,
     store4x2,
     store8,
+    store_rows,
     trailing_zeros,
 )  # fmt: skip
 from genmojo_core.render.cpu.bins import TILE, Bins
@@ -48,19 +49,29 @@ LANES = 8
 CUT = np.float32(math.log2(ALPHA_MIN))
 MOST = np.float32(ALPHA_MAX)
 STOP = np.float32(TRANSMITTANCE_MIN)
-AHEAD = 6  # entries
-# A tile's scratch, in floats: constants of exp2, pixel centres, one entry's alphas, then the state of the blocks.
+AHEAD = 8  # entries
+CHUNK = 56  # splats of a tile taken at once: as many bits fit into an int64 with some to spare
+ROW = 24  # floats of a copied record: geometry and at most 16 slots, rounded up to 8
+WIDE = 10  # slots blended along with the transmittance; the others follow in loops of their own
+# A tile's scratch, in floats: constants of exp2, pixel centres, records, one block's weights, the state of the blocks.
 XS = EXP2_FLOATS
 YS = XS + BLOCKS * LANES
-ALPHAS = YS + BLOCKS * LANES
-STATE = ALPHAS + BLOCKS * LANES
+ROWS = YS + BLOCKS * LANES
+ALPHAS = ROWS  # of the backward pass, which copies no records
+WEIGHTS = ROWS + CHUNK * ROW
+STATE = WEIGHTS + CHUNK * LANES
+# A tile's marks, in int64: per column and per row of blocks, which splats of the chunk touch it.
+# From HITS on, the blocks that saw each splat of the chunk.
+COLUMNS, LINES, HITS = 0, 4, 12
+MARKS = HITS + CHUNK
 
 
 class Drawing(NamedTuple):
     """What the tile kernels read and write for one view and up to 16 channel slots."""
 
-    records: np.ndarray  # (M * (6 + slots),) float32 by rank
+    records: np.ndarray  # (M * (6 + slots) + 8,) float32 by rank, the last eight of any content
     slots: int  # channels including depth, even
+    stride: int  # floats of a block's state, state_floats(slots)
     attached: int  # the first of them that give gradient to geometry, even
     planes: np.ndarray  # ((1 + slots) * padded height * padded width,) float32: alpha, then slots
     hits: np.ndarray  # (E,) uint32 by slot: the blocks an entry was seen in
@@ -68,19 +79,14 @@ class Drawing(NamedTuple):
     height: int
 
 
+def state_floats(slots: int) -> int:
+    """Floats of one block's state: T and the slots, at least WIDE of them."""
+    return (1 + max(slots, WIDE)) * LANES
+
+
 def drawing_floats(slots: int) -> int:
     """Size of the scratch of `draw_tiles`."""
-    return STATE + BLOCKS * (1 + slots) * LANES
-
-
-@inlined
-def block_mask(box: np.ndarray, rank: int, left: int, top: int) -> int:
-    """Blocks of the tile at pixel (left, top) that a splat's box touches; block = 4 row + column."""
-    first_x, last_x = larger(box[rank, 0] - left, 0) >> 2, smaller(box[rank, 1] - left, TILE - 1) >> 2
-    first_y, last_y = larger(box[rank, 2] - top, 0) >> 1, smaller(box[rank, 3] - top, TILE - 1) >> 1
-    columns = (1 << (last_x + 1)) - (1 << first_x)
-    rows = (1 << (4 * (last_y + 1))) - (1 << (4 * first_y))
-    return (columns * 0x11111111) & rows
+    return STATE + BLOCKS * state_floats(slots)
 
 
 @inlined
@@ -103,16 +109,35 @@ def prepare(scratch: np.ndarray) -> None:
 
 
 @inlined
-def add_channels(scratch: np.ndarray, at: int, records: np.ndarray, first: int, slots: int, w: object) -> None:
-    """Eight pixels' sums, one vector per slot from `at` on, += w times the record's channels from `first` on."""
-    for group in range(slots >> 3):
-        for k in range(8):
-            place = at + (8 * group + k) * LANES
-            store8(scratch, place, fma(w, broadcast8(records, first + 8 * group + k), load8(scratch, place)))
-    for pair in range((slots & ~7) >> 1, slots >> 1):
-        for k in range(2):
-            place = at + (2 * pair + k) * LANES
-            store8(scratch, place, fma(w, broadcast8(records, first + 2 * pair + k), load8(scratch, place)))
+def take_chunk(
+    drawing: Drawing, bins: Bins, span: tuple, corner: tuple, scratch: np.ndarray, marks: np.ndarray
+) -> None:
+    """Copy the records of entries span[0]..span[1]-1 into the scratch, centres from the tile's corner, and mark boxes.
+
+    A box marks the columns and rows of blocks that it touches.
+    """
+    left, top = corner
+    width = GEOMETRY + drawing.slots
+    for i in range(HITS):
+        marks[i] = 0
+    for k in range(span[1] - span[0]):
+        rank = bins.rank[span[0] + k]
+        coming = bins.rank[smaller(span[0] + k + AHEAD, bins.rank.size - 1)]
+        prefetch(drawing.records, coming * width)
+        prefetch(bins.box, coming * 4)
+        row = ROWS + k * ROW
+        for i in range(0, width, LANES):
+            store8(scratch, row + i, load8(drawing.records, rank * width + i))
+        for i in range(width, GEOMETRY + WIDE):
+            scratch[row + i] = 0
+        scratch[row] -= np.float32(left)
+        scratch[row + 1] -= np.float32(top)
+        first_x, last_x = larger(bins.box[rank, 0] - left, 0) >> 2, smaller(bins.box[rank, 1] - left, TILE - 1) >> 2
+        first_y, last_y = larger(bins.box[rank, 2] - top, 0) >> 1, smaller(bins.box[rank, 3] - top, TILE - 1) >> 1
+        touched = (((1 << (last_y + 1)) - (1 << first_y)) << LINES) + (1 << (last_x + 1)) - (1 << first_x)
+        marks[HITS + k] = 0
+        for i in range(HITS):
+            marks[i] |= ((touched >> i) & 1) << k
 
 
 @inlined
@@ -132,71 +157,124 @@ def write_alphas(records: np.ndarray, at: int, mask: int, corner: tuple, scratch
 
 
 @inlined
-def blend(records: np.ndarray, first: int, slots: int, mask: int, scratch: np.ndarray) -> tuple:
-    """Blend the channels from `first` on with the alphas just written; the blocks seen and the blocks now finished."""
+def alphas(scratch: np.ndarray, row: int, x: object, y: object) -> object:
+    """Alpha of a copied record at eight pixels, not clamped, 0 under the cut."""
+    dx, dy = x - broadcast8(scratch, row), y - broadcast8(scratch, row + 1)
+    a, b, c = broadcast8(scratch, row + 2), broadcast8(scratch, row + 3), broadcast8(scratch, row + 4)
+    e = fma(dx, fma(a, dx, b * dy), fma(c * dy, dy, broadcast8(scratch, row + 5)))
+    return select8(e >= CUT, exp2_8(e, scratch), np.float32(0))
+
+
+@inlined
+def blend(scratch: np.ndarray, marks: np.ndarray, block: int, mask: int, cell: int) -> int:
+    """Blend the splats `mask`, at least one, of the chunk on one block, WIDE slots, until its pixels are finished.
+
+    Their weights are left in the scratch, one after the other; returns where they end.
+    """
     zero = splat8(np.float32(0))
-    seen_blocks, finished, place = 0, 0, ALPHAS
-    while mask != 0:
-        block = trailing_zeros(mask)
+    x, y = load8(scratch, XS + block * LANES), load8(scratch, YS + block * LANES)
+    t, c0, c1 = load8(scratch, cell), load8(scratch, cell + 8), load8(scratch, cell + 16)
+    c2, c3, c4 = load8(scratch, cell + 24), load8(scratch, cell + 32), load8(scratch, cell + 40)
+    c5, c6, c7 = load8(scratch, cell + 48), load8(scratch, cell + 56), load8(scratch, cell + 64)
+    c8, c9 = load8(scratch, cell + 72), load8(scratch, cell + 80)
+    place = WEIGHTS
+    while True:
+        k = trailing_zeros(mask)
         mask &= mask - 1
-        cell = STATE + block * (1 + slots) * LANES
-        t = load8(scratch, cell)
-        part = min8(load8(scratch, place), MOST) * t
+        row = ROWS + k * ROW
+        part = min8(alphas(scratch, row, x, y), MOST) * t
+        rest = t - part
+        hit, going = part > zero, rest > STOP
+        w = select8(hit & going, part, zero)
+        t = select8(going, rest, min8(t, zero - t))
+        marks[HITS + k] |= any_lane(hit) << block
+        f = row + GEOMETRY
+        c0, c1 = fma(w, broadcast8(scratch, f), c0), fma(w, broadcast8(scratch, f + 1), c1)
+        c2, c3 = fma(w, broadcast8(scratch, f + 2), c2), fma(w, broadcast8(scratch, f + 3), c3)
+        c4, c5 = fma(w, broadcast8(scratch, f + 4), c4), fma(w, broadcast8(scratch, f + 5), c5)
+        c6, c7 = fma(w, broadcast8(scratch, f + 6), c6), fma(w, broadcast8(scratch, f + 7), c7)
+        c8, c9 = fma(w, broadcast8(scratch, f + 8), c8), fma(w, broadcast8(scratch, f + 9), c9)
+        store8(scratch, place, w)
         place += LANES
-        seen, rest = part > zero, t - part
-        after = select8(rest > STOP, rest, zero - t)
-        going = seen & (rest > STOP)
-        store8(scratch, cell, select8(seen, after, t))
-        seen_blocks |= any_lane(seen) << block
-        add_channels(scratch, cell + LANES, records, first, slots, select8(going, part, zero))
-        if bits(going) != bits(seen) and bits(load8(scratch, cell) > zero) == 0:
-            finished |= 1 << block
-    return seen_blocks, finished
+        if mask == 0 or any_lane(t > zero) == 0:
+            break
+    store_rows(scratch, cell, (t, c0, c1, c2, c3, c4, c5, c6, c7, c8, c9))
+    return place
+
+
+@inlined
+def add_channels(scratch: np.ndarray, mask: int, cell: int, end: int, slots: int) -> None:
+    """Blend slots WIDE, ... of one block, two at a time, with the weights just written, which end at `end`."""
+    for slot in range(WIDE, slots, 2):
+        at, place, coming = cell + (1 + slot) * LANES, WEIGHTS, mask
+        c0, c1 = load8(scratch, at), load8(scratch, at + LANES)
+        while place != end:
+            f = ROWS + trailing_zeros(coming) * ROW + GEOMETRY + slot
+            coming &= coming - 1
+            w = load8(scratch, place)
+            place += LANES
+            c0, c1 = fma(w, broadcast8(scratch, f), c0), fma(w, broadcast8(scratch, f + 1), c1)
+        store_rows(scratch, at, (c0, c1))
+
+
+@inlined
+def draw_chunk(drawing: Drawing, alive: int, scratch: np.ndarray, marks: np.ndarray) -> int:
+    """Blend a chunk on all blocks `alive`; the blocks that stay alive."""
+    left = alive
+    while left != 0:
+        block = trailing_zeros(left)
+        left &= left - 1
+        mask = marks[COLUMNS + (block & 3)] & marks[LINES + (block >> 2)]
+        if mask != 0:
+            cell = STATE + block * drawing.stride
+            end = blend(scratch, marks, block, mask, cell)
+            add_channels(scratch, mask, cell, end, drawing.slots)
+            if any_lane(load8(scratch, cell) > np.float32(0)) == 0:
+                alive &= ~(1 << block)
+    return alive
 
 
 @inlined
 def write_tile(drawing: Drawing, scratch: np.ndarray, left: int, top: int, pitch: int, plane: int) -> None:
-    """Copy a tile's state into the padded planes: alpha = 1 - |T|, then the slots."""
-    slots = drawing.slots
+    """Copy a tile's state into the padded planes: alpha = 1 - |T|, then the slots.
+
+    Plane by plane: planes often lie a power of two apart, where a cache holds few lines at once.
+    """
+    corner = top * pitch + left
     for block in range(BLOCKS):
-        cell = STATE + block * (1 + slots) * LANES
-        place = (top + (block >> 2) * BLOCK_HEIGHT) * pitch + left + (block & 3) * BLOCK_WIDTH
-        t = load8(scratch, cell)
-        t = select8(t > np.float32(0), t, np.float32(0) - t)
-        store4x2(drawing.planes, place, place + pitch, np.float32(1) - t)
-        for c in range(slots):
-            here = (1 + c) * plane + place
-            store4x2(drawing.planes, here, here + pitch, load8(scratch, cell + (1 + c) * LANES))
+        place = corner + (block >> 2) * BLOCK_HEIGHT * pitch + (block & 3) * BLOCK_WIDTH
+        t = load8(scratch, STATE + block * drawing.stride)
+        store4x2(drawing.planes, place, place + pitch, np.float32(1) - select8(t > np.float32(0), t, np.float32(0) - t))
+    for c in range(1, 1 + drawing.slots):
+        for block in range(BLOCKS):
+            place = c * plane + corner + (block >> 2) * BLOCK_HEIGHT * pitch + (block & 3) * BLOCK_WIDTH
+            store4x2(drawing.planes, place, place + pitch, load8(scratch, STATE + block * drawing.stride + c * LANES))
 
 
 @kernel
-def draw_tiles(start: int, stop: int, drawing: Drawing, bins: Bins, scratch: np.ndarray) -> None:
-    """Blend tiles start..stop-1 into the planes and record which blocks each entry was seen in.
+def draw_tiles(
+    start: int, stop: int, drawing: Drawing, bins: Bins, scratch: np.ndarray, marks: np.ndarray
+) -> None:  # fmt: skip
+    """Blend tiles start..stop-1 into the planes and record what each block has seen.
 
-    scratch: `drawing_floats(slots)` float32, of any content.
+    scratch: `drawing_floats(slots)` float32, marks: MARKS int64, of any content.
     """
-    slots = drawing.slots
-    width = GEOMETRY + slots
+    stride = drawing.stride
     prepare(scratch)
     pitch = bins.tiles_x * TILE
     for tile in range(start, stop):
         left, top = (tile % bins.tiles_x) * TILE, (tile // bins.tiles_x) * TILE
-        for i in range(STATE, STATE + BLOCKS * (1 + slots) * LANES, LANES):
+        for i in range(STATE, STATE + BLOCKS * stride, LANES):
             store8(scratch, i, splat8(np.float32(0)))
         for block in range(BLOCKS):
-            store8(scratch, STATE + block * (1 + slots) * LANES, splat8(np.float32(1)))
+            store8(scratch, STATE + block * stride, splat8(np.float32(1)))
         alive = inside_mask(left, top, drawing.width, drawing.height)
-        corner = (np.float32(left), np.float32(top))
-        last = bins.tile_start[tile + 1]
-        for entry in range(bins.tile_start[tile], last):
-            rank = bins.rank[entry]
-            prefetch(drawing.records, bins.rank[smaller(entry + AHEAD, last - 1)] * width)
-            mask = block_mask(bins.box, rank, left, top) & alive
-            if mask != 0:
-                write_alphas(drawing.records, rank * width, mask, corner, scratch)
-                seen, finished = blend(drawing.records, rank * width + GEOMETRY, slots, mask, scratch)
-                drawing.hits[bins.slot[entry]] = seen
-                alive &= ~finished
-                if alive == 0:
-                    break
+        first, last = bins.tile_start[tile], bins.tile_start[tile + 1]
+        while first < last and alive != 0:
+            count = smaller(CHUNK, last - first)
+            take_chunk(drawing, bins, (first, first + count), (left, top), scratch, marks)
+            alive = draw_chunk(drawing, alive, scratch, marks)
+            for k in range(count):
+                drawing.hits[bins.slot[first + k]] = marks[HITS + k]
+            first += count
         write_tile(drawing, scratch, left, top, pitch, pitch * bins.tiles_y * TILE)

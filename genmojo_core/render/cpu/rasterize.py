@@ -16,7 +16,14 @@ from genmojo_core.kernels.buffers import take, zeros
 from genmojo_core.kernels.threads import run_jobs, run_ranges, scratch
 from genmojo_core.render.cpu.backward import Slopes, slope_floats, slope_tiles
 from genmojo_core.render.cpu.bins import TILE, Bins, bin_splats, depth_order, gather
-from genmojo_core.render.cpu.forward import Drawing, draw_tiles, drawing_floats
+from genmojo_core.render.cpu.forward import (
+    LANES,
+    MARKS,
+    Drawing,
+    draw_tiles,
+    drawing_floats,
+    state_floats,
+)
 from genmojo_core.render.cpu.project import GEOMETRY, Cloud, Ellipses, Lens, lens_of, project_range
 from genmojo_core.render.cpu.project_backward import MOMENTS, SCRATCH, Gradients, Sums, gather_gradients
 from genmojo_core.render.rasterizer import Rendering, Splats
@@ -179,17 +186,18 @@ def _draw_pass(drawn: Drawn, layout: Layout, ellipses: Ellipses, features: np.nd
     """Blend the features of one pass."""
     bins, lens = drawn.bins, drawn.lens
     count, slots = len(bins.order), layout.slots
-    records = take((count, GEOMETRY + slots))
+    records = take((count * (GEOMETRY + slots) + LANES,))  # the tile kernels copy eight at a time, over the end
+    table = records[:-LANES].reshape(count, GEOMETRY + slots)
     source = (features, layout.feature_of_slot())
-    run_ranges(lambda a, b: gather(a, b, bins.order, ellipses, source, records), count, SPLATS_PER_JOB)
+    run_ranges(lambda a, b: gather(a, b, bins.order, ellipses, source, table), count, SPLATS_PER_JOB)
     planes = take((1 + slots, bins.tiles_y * TILE, bins.tiles_x * TILE))
+    tiles = bins.tiles_x * bins.tiles_y
     hits = zeros((len(bins.rank),), np.uint32)
     drawing = Drawing(
-        records.ravel(), slots, layout.attached_slots, planes.ravel(), hits, lens.width, lens.height
+        records, slots, state_floats(slots), layout.attached_slots, planes.ravel(), hits, lens.width, lens.height
     )  # fmt: skip
-    tiles = bins.tiles_x * bins.tiles_y
     floats = drawing_floats(slots)
-    run_ranges(lambda a, b: draw_tiles(a, b, drawing, bins, scratch(floats)), tiles, _tile_chunk(bins))
+    run_ranges(lambda a, b: draw_tiles(a, b, drawing, bins, *room(floats, MARKS)), tiles, _tile_chunk(bins))
     return Pass(layout, drawing, planes)
 
 
@@ -230,6 +238,12 @@ def _blank(one: Pass, height: int, width: int, *, depth: bool) -> np.ndarray:
     planes[2 if depth else 0 : 1 + slots.start] = 0
     planes[1 + slots.stop :] = 0
     return planes
+
+
+def room(floats: int, marks: int) -> tuple[np.ndarray, np.ndarray]:
+    """The calling thread's scratch for a tile kernel: (floats,) float32 and (marks,) int64."""
+    whole = scratch(2 * marks + floats)
+    return whole[2 * marks :], whole[: 2 * marks].view(np.int64)
 
 
 def _tile_chunk(bins: Bins) -> int:
