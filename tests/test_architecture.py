@@ -19,7 +19,8 @@ ROOT = Path(__file__).resolve().parent.parent
 MAX_FILE_LINES, MAX_FUNCTION_LINES, MAX_PARAMETERS = 400, 50, 8
 
 # The only files that may open untrusted pickles or checkpoints: they run in child processes of their own.
-CHILD_PROCESSES = {"genmojo_core/trackers/cotracker_process.py", "genmojo_core/store/tapvid_pickle_process.py"}
+CHILD_PROCESSES = {"genmojo_core/trackers/cotracker_process.py", "genmojo_core/store/tapvid_pickle_process.py",
+                   "genmojo_core/priors/bin_weights_process.py"}  # fmt: skip
 # The only files that may catch everything: they are the outermost frame of a process.
 PROCESS_BOUNDARIES = {"genmojo_core/cli/main.py"}
 # Where gradients flow: maths that gives infinite or undefined gradients is written once, in safemath.py.

@@ -15,6 +15,7 @@ def add_commands(commands: Any) -> None:
     train = commands.add_parser("train-prior", help="train the embedded view prior on procedural objects")
     train.add_argument("-o", "--output", required=True, metavar="DIR", help="state, log and prior.safetensors; a state "
                        "that is there is gone on from")  # fmt: skip
+    train.add_argument("--from", dest="start", metavar="FILE", help="go on from a finished file's weights")
     train.add_argument("--volume-time", type=seconds, default=3 * 3600.0, metavar="3h", help="CPU time for the volume")
     train.add_argument("--denoiser-time", type=seconds, default=3600.0, metavar="1h", help="and for the denoiser")
     train.add_argument("--batch", type=int, default=8, metavar="N", help="objects per step")
@@ -37,7 +38,8 @@ def run_train(args: argparse.Namespace) -> dict[str, Any]:
         raise GenmojoError("argument", f"torch sees no device '{args.device}'", "--device", "use cpu")
     torch.set_num_threads(1)
     folder = Path(args.output)
-    plan = make.Times(args.volume_time, args.denoiser_time, args.batch, args.seed, args.device)
+    plan = make.Times(args.volume_time, args.denoiser_time, args.batch, args.seed, args.device,
+                      Path(args.start) if args.start else None)  # fmt: skip
     with progress("training") as tell:
 
         def hear(part: str, done: Any) -> None:

@@ -96,16 +96,24 @@ def control(
     added, split = children(gaussians, rows, generator)
     drop[rows[split]] = True
     keep = torch.nonzero(~drop)[:, 0]
-    replace_rows(gaussians, keep, added, optimiser)
+    parents = torch.cat([rows, rows[split]])
+    replace_rows(gaussians, keep, added, optimiser, gaussians.invented[parents])
     return len(added["means"]), before - len(keep)
 
 
+def keep_only(gaussians: Gaussians, keep: Tensor, optimiser: torch.optim.Optimizer) -> None:
+    """Remove all other rows; keep: (N,) bool."""
+    nothing = {name: getattr(gaussians, name).detach()[:0] for name in Gaussians.NAMES}
+    replace_rows(gaussians, torch.nonzero(keep)[:, 0], nothing, optimiser)
+
+
 def replace_rows(
-    gaussians: Gaussians, keep: Tensor, added: dict[str, Tensor], optimiser: torch.optim.Optimizer
-) -> None:
+    gaussians: Gaussians, keep: Tensor, added: dict[str, Tensor], optimiser: torch.optim.Optimizer,
+    invented: Tensor | None = None,
+) -> None:  # fmt: skip
     """Gaussians.replace_rows with the optimiser's moments kept for the kept rows and zero for the new ones."""
     old = {name: getattr(gaussians, name) for name in Gaussians.NAMES}
-    gaussians.replace_rows(keep, added)
+    gaussians.replace_rows(keep, added, invented)
     for name, parameter in old.items():
         new = getattr(gaussians, name)
         new.requires_grad_(parameter.requires_grad)

@@ -290,9 +290,8 @@ class Run:
             if self.progress.advance(outcome):
                 self.add_point()
             yield self.progress.event(self.clock, len(self.scene))
-            reason = self.unseen.objection(self.progress.psnr()) if self.unseen is not None else ""
+            reason = self._objection(stage)
             if reason:
-                self.unseen = None
                 yield EffectChanged(*self.clock.now(), "unseen_views", False, reason)
             if i % self.config.densify_every == 0 and i < 0.8 * stage.steps:
                 self._control_density()
@@ -307,6 +306,18 @@ class Run:
                 yield from self._checkpoint()
             if self._over():
                 return
+
+    def _objection(self, stage: Stage) -> str:
+        """Why the prior was just switched off, its Gaussians with it; empty if it was not."""
+        if self.unseen is None or not stage.deform:
+            return ""
+        reason = self.unseen.objection(self.objective, self.progress.fraction(self.clock))
+        if reason:
+            self.unseen = None
+            for gaussians, _ in self.statistics:
+                density.keep_only(gaussians, ~gaussians.invented, self.optimiser)
+            self._after_change()
+        return reason
 
     def _step(self, stage: Stage, i: int) -> Outcome:
         """One optimiser step."""
@@ -335,6 +346,10 @@ class Run:
         """Grow and prune every object's Gaussians; the background keeps its own."""
         for gaussians, statistics in self.statistics:
             density.control(gaussians, statistics, self.config.gaussians_per_object, self.optimiser, self.generator)
+        self._after_change()
+
+    def _after_change(self) -> None:
+        """What depends on which Gaussians there are."""
         self.objective.refresh_neighbours()
         self._new_statistics()
         self.guard.snapshot()

@@ -2,11 +2,13 @@
 
 Each step one object (or all) is shown to the prior alone, in the prior's space, from views around one of its good
 frames (METHOD.md sections 2 and 5). No gradient reaches the placement: the prior knows shapes, not places. Where the
-prior gave Gaussians of its own, only those (and what grows later) follow it; what frames show is theirs alone.
+prior gave Gaussians of its own, only those and what grows out of them follow it, in shape and colour, not in motion;
+what frames show is theirs alone.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -18,10 +20,11 @@ from torch import Tensor
 from genmojo_core.clip.cameras import View
 from genmojo_core.clip.clip import Clip
 from genmojo_core.config import RunConfig
-from genmojo_core.conventions import matrix_to_quaternion
+from genmojo_core.conventions import SH_C0, matrix_to_quaternion
 from genmojo_core.optimise.first_poses import Moves
 from genmojo_core.optimise.lift import Lifted
-from genmojo_core.optimise.objective import Outcome
+from genmojo_core.optimise.objective import Objective, Outcome
+from genmojo_core.priors.agreement import Seen, disagreement
 from genmojo_core.priors.completion import in_world, selected, surface_points, unseen_only
 from genmojo_core.priors.embedded import EmbeddedPrior, view_cameras
 from genmojo_core.priors.prior import ViewOffsets, ViewPrior
@@ -32,6 +35,7 @@ from genmojo_core.priors.zero123 import Zero123Prior
 from genmojo_core.render.backend import Splat
 from genmojo_core.render.rasterizer import Splats
 from genmojo_core.scene import safemath
+from genmojo_core.scene.deform import Deformation
 from genmojo_core.scene.gaussians import Gaussians
 from genmojo_core.scene.initialise import Points, surface_axes
 from genmojo_core.scene.scene4d import ObjectModel
@@ -41,8 +45,8 @@ TRUSTED = 0.3  # confidence of a frame's pose from which it may contradict the p
 FRAMES = 12  # references per object at most, spread over the clip
 POINT_SHARE = 0.25  # of the allowed Gaussians, spent on unseen sides at first
 LAST_WEIGHT = 0.1  # of the loss, reached at the end of the run's last third
-WORSE = 1.0  # dB on held-out pixels below its best at which the prior is switched off
-ALL_FRAMES = 0.5  # share of the run from which held-out pixels are watched
+COMPARED = (0.5, 0.75)  # shares of the run at which held-out pixels are compared with and without the prior
+WORSE = 0.1  # dB they must be better without it, to switch it off
 SIZES = ((0.3, 2), (0.6, 3), (1.0, 4))  # until this share of the run: render side in units of the prior's side
 
 
@@ -89,10 +93,11 @@ class UnseenViews:
         groups = [tuple(lifted.rows)] if everything else [(k,) for k in lifted.rows]
         self.subjects = [_subject(clip, lifted, group) for group in groups]
         self.seen: list[tuple[float, float, int]] = []
-        self.best, self.share = 0.0, 0.0
-        self.first_free: dict[int, int] = {}  # by object id: Gaussians with smaller uids are the frames' alone
+        self.asked: set[float] = set()  # shares of the run at which the held-out pixels were compared
+        self.completed: set[int] = set()  # ids of objects with invented Gaussians
         if isinstance(prior, EmbeddedPrior) and not everything:
             for one in self.subjects:
+                self._check_agreement(prior, one, motions[one.clip_indices[0]])
                 self._complete(prior, one, motions[one.clip_indices[0]], lifted)
 
     def notes(self) -> list[str]:
@@ -121,19 +126,30 @@ class UnseenViews:
         loss = weight * fade(moment.share) * torch.stack(losses).mean()
         outcome.loss = outcome.loss + loss.to(outcome.loss.device)
         outcome.parts["unseen"] = float(loss.detach())
-        self.share = moment.share
 
-    def objection(self, psnr: float) -> str:
-        """Why the prior must be switched off: held-out pixels got worse while it spoke; empty while they agree.
+    def objection(self, objective: Objective, share: float) -> str:
+        """Why the prior must be switched off: the clip's held-out pixels are better without it; empty if they agree.
 
-        Judged once all frames take part, because frames that join late lower the figure on their own.
+        The same scene is drawn with and without the invented Gaussians, at the shares COMPARED of the run, when all
+        frames take part. Costs two renderings of every frame.
         """
-        if self.share < ALL_FRAMES or not psnr:
+        due = next((at for at in COMPARED if share >= at and at not in self.asked), None)
+        if due is None or not self.completed:
             return ""
-        self.best = max(self.best, psnr)
-        if psnr > self.best - WORSE:
+        self.asked.add(due)
+        with_it = held_out_psnr(objective)
+        sets = [model.gaussians for model in self.scene.objects]
+        kept = [g.logit_opacities.detach().clone() for g in sets]
+        with torch.no_grad():
+            for g in sets:
+                g.logit_opacities[g.invented] = -safemath.LOGIT_LIMIT
+            without = held_out_psnr(objective)
+            for g, logits in zip(sets, kept, strict=True):
+                g.logit_opacities.copy_(logits)
+        if without < with_it + WORSE:
             return ""
-        return f"held-out pixels fell from {self.best:.1f} to {psnr:.1f} dB while the prior spoke: it is switched off"
+        return (f"held-out pixels have {with_it:.2f} dB with the Gaussians the prior invented and {without:.2f} dB "
+                "without: it is switched off")  # fmt: skip
 
     def mode(self) -> Mode:
         """How the prior is followed: as configured; by itself the embedded one as pseudo-views, others by sds."""
@@ -178,21 +194,43 @@ class UnseenViews:
 
     def _splats(self, model: ObjectModel, placed: PlacedReference, t: int, deform: bool) -> tuple[Tensor, ...]:
         """Means, quats, scales, opacities and colours of one object at frame t in the prior's space."""
-        state = model.states([t], deform)[0]
+        own = model.id in self.completed
+        with torch.set_grad_enabled(not own):
+            bent = model.states([t], deform)[0].deformation
         scale, quat, origin = _object_to_prior(model, placed, t)
-        means = scale * safemath.rotate(quat, state.local_means) + origin
-        quats = safemath.quaternion_multiply(quat.expand_as(state.local_quats), state.local_quats)
-        bent = state.deformation
-        log_scales = model.gaussians.log_scales if bent is None else model.gaussians.log_scales + bent.d_log_scales
-        scales = scale * safemath.exp_scale(log_scales)
-        columns = (means, quats, scales, model.gaussians.opacities(), state.rgb * self._light(t))
-        free = model.gaussians.uid >= self.first_free.get(model.id, 0)
+        local_means, local_quats, log_scales, dc = _bent(model.gaussians, bent)
+        means = scale * safemath.rotate(quat, local_means) + origin
+        quats = safemath.quaternion_multiply(quat.expand_as(local_quats), safemath.normalise(local_quats))
+        rgb = (0.5 + SH_C0 * dc) * self._light(t)
+        columns = (means, quats, scale * safemath.exp_scale(log_scales), model.gaussians.opacities(), rgb)
+        if not own:
+            return columns
+        free = model.gaussians.invented
         return tuple(torch.where(free.reshape(-1, *[1] * (c.dim() - 1)), c, c.detach()) for c in columns)
+
+    def _check_agreement(self, prior: EmbeddedPrior, one: Subject, motion: Moves) -> None:
+        """Switch the prior off for an object of which it says different things from two frames."""
+        trusted = [t for t in one.references if motion.confidence[t] >= TRUSTED and t != one.home]
+        if one.home not in one.references or not trusted:
+            return
+        other = max(trusted, key=lambda t: abs(t - one.home))
+        volumes = []
+        for t in (one.home, other):
+            placed = one.references[t]
+            one.conditions[t] = prior.encode(placed.reference)
+            volumes.append(Seen(one.conditions[t].volume, placed.reference.elevation, placed.reference.distance))
+        first, second = one.references[one.home], one.references[other]
+        moved = motion.pose[other] @ np.linalg.inv(motion.pose[one.home])
+        to_other = np.linalg.inv(second.to_world) @ moved @ first.to_world
+        differ = disagreement(volumes[0], volumes[1], to_other)
+        if differ > prior.agreement:
+            reason = (f"what it says from frames {one.home} and {other} differs by {100 * differ:.0f} %, more than "
+                      f"{100 * prior.agreement:.0f} %")  # fmt: skip
+            one.off, one.references = dict.fromkeys(one.references, reason), {}
 
     def _complete(self, prior: EmbeddedPrior, one: Subject, motion: Moves, lifted: Lifted) -> None:
         """Add Gaussians where the volume has surface that no frame shows and none contradicts."""
         gaussians = one.models[0].gaussians
-        self.first_free[one.models[0].id] = gaussians.next_uid
         room = self.config.gaussians_per_object - len(gaussians)
         count = min(room, int(POINT_SHARE * self.config.gaussians_per_object))
         if count < 1 or not one.references:
@@ -214,9 +252,20 @@ class UnseenViews:
             rows = np.random.default_rng(self.config.seed).permutation(rows)[:count]
         if len(rows):
             _add(gaussians, selected(points, rows), lifted.frames_of[lifted.rows[k]], self._light(one.home))
+            self.completed.add(one.models[0].id)
 
     def _light(self, t: int) -> Tensor | float:
         return 1.0 if self.scene.gain is None else self.scene.gain(t).detach()
+
+
+def held_out_psnr(objective: Objective) -> float:
+    """PSNR in dB of the scene as it stands on the held-out pixels of all frames; 0 if there are none."""
+    error, count = 0.0, 0
+    with torch.no_grad():
+        for t in range(objective.frames):
+            outcome = objective.evaluate([t], True, torch.Generator().manual_seed(0))
+            error, count = error + outcome.held_out[0][1], count + outcome.held_out[0][2]
+    return -10.0 * math.log10(max(error / count, 1e-10)) if count else 0.0
 
 
 def draw_views(rng: np.random.Generator, count: int) -> ViewOffsets:
@@ -259,6 +308,15 @@ def _subject(clip: Clip, lifted: Lifted, group: tuple[int, ...]) -> Subject:
     return Subject(models, group, name, home, references, off)
 
 
+def _bent(gaussians: Gaussians, bent: Deformation | None) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+    """Means, quaternions (not unit), logarithmic scales and colour coefficients in object space."""
+    g = gaussians
+    if bent is None:
+        return g.means, g.quats, g.log_scales, g.dc
+    dc = g.dc if bent.d_dc is None else g.dc + bent.d_dc
+    return g.means + bent.d_means, g.quats + bent.d_quats, g.log_scales + bent.d_log_scales, dc
+
+
 def _object_to_prior(model: ObjectModel, placed: PlacedReference, t: int) -> tuple[float, Tensor, Tensor]:
     """Scale, unit quaternion (4,) and origin (3,) from object space to the prior's, all held fixed."""
     with torch.no_grad():
@@ -278,7 +336,8 @@ def _add(gaussians: Gaussians, points: Points, frame: tuple[np.ndarray, float], 
     rgb = (_tensor(points.rgb) / light).clamp(0, 1)
     fresh = Gaussians.from_surface(_tensor((points.xyz - centre) / size), rgb, axes)
     added = {name: getattr(fresh, name).detach() for name in Gaussians.NAMES}
-    gaussians.replace_rows(torch.arange(len(gaussians)), added)
+    everything = torch.ones(len(points), dtype=torch.bool)
+    gaussians.replace_rows(torch.arange(len(gaussians)), added, everything)
 
 
 def _tensor(array: np.ndarray) -> Tensor:

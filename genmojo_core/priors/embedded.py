@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -36,6 +36,7 @@ class EmbeddedPrior:
 
     Args:
         volume, denoiser: trained networks; they are frozen and put into evaluation mode.
+        agreement: how much two volumes of one object may differ (agreement.py).
     """
 
     resolution = SIDE
@@ -43,7 +44,8 @@ class EmbeddedPrior:
     kind: Literal["embedded", "zero123", "zeronvs"] = "embedded"
     scope: Literal["object", "scene"] = "object"
 
-    def __init__(self, volume: VolumeNet, denoiser: Denoiser) -> None:
+    def __init__(self, volume: VolumeNet, denoiser: Denoiser, agreement: float = 1.0) -> None:
+        self.agreement = agreement
         self.volume = volume.eval().requires_grad_(False)
         self.denoiser = denoiser.eval().requires_grad_(False)
 
@@ -54,14 +56,9 @@ class EmbeddedPrior:
     @torch.no_grad()
     def encode(self, reference: Reference) -> Condition:
         """The volume that a reference calls for."""
-        channels = torch.cat([
-            reference.picture[:3] * (reference.picture[3:] > 0), reference.picture[3:], reference.hidden[None],
-            (reference.depth * reference.known)[None], reference.known[None],
-        ])  # fmt: skip
-        if channels.shape[-1] != CONDITION:
-            channels = functional.interpolate(channels[None], (CONDITION, CONDITION), mode="area")[0]
+        channels = channels_of(reference)
         facts = torch.tensor([facts_of(reference.elevation, reference.distance)])
-        return Condition(self.volume(channels[None].float(), facts), reference)
+        return Condition(self.volume(channels, facts), reference)
 
     def embed(self, renders: Tensor) -> Tensor:
         """Area resampling to 32 x 32; premultiplied RGBA stays what it is."""
@@ -97,7 +94,19 @@ class EmbeddedPrior:
         poses = view_cameras(condition.reference, views, condition.reference.distance)
         to_space = torch.tensor(np.linalg.inv(poses), dtype=torch.float32)[None]
         rays = picture_rays(to_space, torch.tensor([condition.reference.distance]), side)
+        rays = replace(rays, cameras=(condition.reference.distance + views.radius.float())[None])
         return render(condition.volume, rays)[0].transpose(1, 2).unflatten(2, (side, side))
+
+
+def channels_of(reference: Reference) -> Tensor:
+    """(1, 7, CONDITION, CONDITION) float32: a reference as the volume network is shown it (generator.Example)."""
+    channels = torch.cat([
+        reference.picture[:3] * (reference.picture[3:] > 0), reference.picture[3:], reference.hidden[None],
+        (reference.depth * reference.known)[None], reference.known[None],
+    ])[None]  # fmt: skip
+    if channels.shape[-1] != CONDITION:
+        channels = functional.interpolate(channels, (CONDITION, CONDITION), mode="area")
+    return channels.float()
 
 
 def view_cameras(reference: Reference, views: ViewOffsets, distance: float) -> np.ndarray:

@@ -58,10 +58,11 @@ class Parts:
                       light / np.linalg.norm(light), float(rng.uniform(0.35, 0.85)))  # fmt: skip
 
 
-def draw_object(rng: Rng) -> Solids:
-    """One object of a random family, turned about the vertical at random."""
+def draw_object(rng: Rng, strange: float = 0.0) -> Solids:
+    """One object of a random family, turned about the vertical at random; of STRANGE with that probability."""
     parts = Parts()
-    FAMILIES[int(rng.integers(len(FAMILIES)))](parts, rng)
+    families = STRANGE if strange and rng.random() < strange else FAMILIES
+    families[int(rng.integers(len(families)))](parts, rng)
     turn = axis_angle_matrix(np.array([0.0, 0.0, 1.0]), float(rng.uniform(0, 360)))
     if rng.random() < 0.15:  # lying, falling, seen at an odd angle
         axis = rng.normal(size=3)
@@ -226,3 +227,56 @@ def _flyer(parts: Parts, rng: Rng) -> None:
 FAMILIES: tuple[Callable[[Parts, Rng], None], ...] = (
     _solids, _blobs, _quadruped, _human, _vehicle, _furniture, _stack, _flyer,
 )  # fmt: skip
+
+
+def _ring(parts: Parts, rng: Rng) -> None:
+    """Rings, handles, knots of a rod: pierced things, standing, leaning or lying."""
+    radius, thick = rng.uniform(0.2, 0.45), rng.uniform(0.05, 0.2)
+    count, squash = 14, rng.uniform(0.6, 1.0)
+    wave = rng.uniform(0.0, 0.15) * (rng.random() < 0.3)
+    axis = rng.normal(size=3)
+    tilt = axis_angle_matrix(axis / np.linalg.norm(axis), float(rng.uniform(0, 90)))
+    turn = np.linspace(0, 2 * np.pi, count + 1)
+    points = np.column_stack([radius * np.cos(turn), wave * np.sin(3 * turn), squash * radius * np.sin(turn)]) @ tilt.T
+    for start, end in zip(points[:-1], points[1:], strict=True):
+        parts.rod(start, end, thick, 0, BALL)
+    if rng.random() < 0.3:
+        parts.add(int(rng.choice(ROUND_OR_BOX)), points[0] + rng.normal(size=3) * 0.1, rng.uniform(0.1, 0.3, 3), 1)
+
+
+def _cone(parts: Parts, rng: Rng) -> None:
+    """Cones and tapered bodies in slices, upright or upside down, with a base or a top half the time."""
+    low, high = rng.uniform(0.2, 0.45), rng.uniform(0.0, 0.2)
+    tall, count = rng.uniform(0.4, 1.0), 14
+    for share in (np.arange(count) + 0.5) / count:
+        radius = low + share * (high - low)
+        parts.add(CYLINDER, np.array([0, 0, (share - 0.5) * tall]), np.array([radius, radius, tall / count / 1.9]), 0)
+    if rng.random() < 0.5:
+        end = np.array([0, 0, rng.choice([-0.5, 0.5]) * tall])
+        parts.add(int(rng.choice(ROUND_OR_BOX)), end, rng.uniform(0.08, 0.4, 3), 1)
+
+
+def _bent(parts: Parts, rng: Rng) -> None:
+    """A thick bar that bends: worms, bananas, leaning poles."""
+    tall, bend, thick = rng.uniform(0.5, 1.1), rng.uniform(-1.5, 1.5), rng.uniform(0.08, 0.28)
+    share = np.linspace(-0.5, 0.5, 9)
+    points = np.column_stack([bend * 0.4 * (share + 0.5) ** 2, rng.uniform(-0.3, 0.3) * share, tall * share])
+    for start, end in zip(points[:-1], points[1:], strict=True):
+        parts.rod(start, end, thick, 0, CYLINDER)
+
+
+def _face(parts: Parts, rng: Rng) -> None:
+    """A head: skull, brow, snout, jaw, eyes, large ears; the front clearly unlike the back."""
+    wide, deep, tall = rng.uniform(0.25, 0.45), rng.uniform(0.22, 0.4), rng.uniform(0.25, 0.45)
+    parts.add(BALL, np.zeros(3), np.array([wide, deep, tall]), 0)
+    parts.add(BALL, np.array([0, -0.8 * deep, 0.45 * tall]), np.array([0.7 * wide, 0.25 * deep, 0.2 * tall]), 0)
+    snout = np.array([0, -0.9 * deep, -0.45 * tall])
+    parts.add(BALL, snout, np.array([0.5 * wide, rng.uniform(0.3, 0.7) * deep, 0.4 * tall]), int(rng.integers(2)))
+    ear = rng.uniform(0.1, 0.28)
+    for side in (-1, 1):
+        parts.add(BALL, np.array([side * 0.4 * wide, -0.85 * deep, 0.2 * tall]), np.full(3, 0.16 * wide), 2)
+        place = np.array([side * (wide + 0.5 * ear), rng.uniform(-0.2, 0.3) * deep, rng.uniform(0, 0.6) * tall])
+        parts.add(BALL, place, np.array([ear, 0.05, ear * rng.uniform(0.8, 1.6)]), int(rng.integers(2)))
+
+
+STRANGE: tuple[Callable[[Parts, Rng], None], ...] = (_ring, _cone, _bent, _face)

@@ -7,8 +7,10 @@ places the space; a side of the square picture measures 2 HALF_EXTENT there, wha
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+import cv2
 import numpy as np
 
 from genmojo_core.conventions import orbit_camera
@@ -28,7 +30,9 @@ class Variation:
     """What may go wrong with a condition; the default is a clean one.
 
     scale: ln range of the box's size around FILL. shift: of its centre, in half pictures. occluded, depth_lost:
-    probabilities. depth_error: relative standard deviation of depth's stretch. noise: of the colours.
+    probabilities. depth_error: relative standard deviation of depth's stretch. noise: of the colours. blurred:
+    probability that the picture was enlarged from fewer pixels. strange: probability of a family that the frozen test
+    set does not know.
     """
 
     scale: float = 0.0
@@ -37,9 +41,11 @@ class Variation:
     depth_lost: float = 0.0
     depth_error: float = 0.0
     noise: float = 0.0
+    blurred: float = 0.0
+    strange: float = 0.0
 
 
-TRAINING = Variation(0.22, 0.06, 0.35, 0.25, 0.25, 0.02)
+TRAINING = Variation(0.22, 0.06, 0.35, 0.25, 0.25, 0.02, 0.4, 0.25)
 
 
 @dataclass(frozen=True)
@@ -70,25 +76,50 @@ def view_matrices(views: np.ndarray, elevation: float, distance: float) -> np.nd
 
 def example(rng: Rng, views: np.ndarray | None = None, count: int = 6, variation: Variation = TRAINING) -> Example:
     """A new object, its condition and its views (given, or `count` random ones)."""
-    while True:
-        elevation, distance = float(rng.uniform(-10, 40)), float(np.exp(rng.uniform(np.log(1.7), np.log(10.0))))
-        fill = FILL * np.exp(rng.uniform(-1, 1) * variation.scale)
-        centre = rng.uniform(-1, 1, 2) * variation.shift
-        solids = _placed(draw_object(rng), elevation, distance, fill, centre)
-        first = draw(solids, view_matrices(np.zeros((1, 2)), elevation, distance), distance, CONDITION)
-        alpha = first.rgba[0, ..., 3]
-        hidden = _occluder(rng, alpha) if rng.random() < variation.occluded else np.zeros_like(alpha)
-        seen = (alpha > 0.5) & (hidden < 0.5)
-        if seen.sum() >= 24:
-            break
-    near = float(np.median(first.depth[0][seen]))
-    grown = (distance - FRONT) / near
-    solids = _scaled(solids, grown, distance)
+    taken = None
+    while taken is None:
+        taken = shot(rng, lambda: draw_object(rng, variation.strange), variation)
     if views is None:
         views = random_views(rng, count)
-    targets = draw(solids, view_matrices(views, elevation, distance), distance, SIDE).rgba
-    condition = _condition(rng, first.rgba[0], first.depth[0] * grown - distance, hidden, variation)
-    return Example(condition, elevation, distance, views, np.ascontiguousarray(np.moveaxis(targets, -1, 1)))
+    targets = draw(taken.solids, view_matrices(views, taken.elevation, taken.distance), taken.distance, SIDE).rgba
+    targets = np.ascontiguousarray(np.moveaxis(targets, -1, 1))
+    return Example(taken.condition(rng, variation), taken.elevation, taken.distance, views, targets)
+
+
+@dataclass(frozen=True)
+class Shot:
+    """An object (z up) placed in the prior's space and looked at by its condition camera.
+
+    rgba (C, C, 4), depth (C, C) relative to the origin, hidden (C, C) 0 or 1.
+    """
+
+    solids: Solids
+    elevation: float
+    distance: float
+    rgba: np.ndarray
+    depth: np.ndarray
+    hidden: np.ndarray
+
+    def condition(self, rng: Rng, variation: Variation) -> np.ndarray:
+        """(7, C, C), see Example."""
+        return _condition(rng, self.rgba, self.depth, self.hidden, variation)
+
+
+def shot(rng: Rng, make: Callable[[], Solids], variation: Variation) -> Shot | None:
+    """An object from a random elevation and distance; None where too little of it shows."""
+    elevation, distance = float(rng.uniform(-10, 40)), float(np.exp(rng.uniform(np.log(1.7), np.log(10.0))))
+    fill = FILL * np.exp(rng.uniform(-1, 1) * variation.scale)
+    centre = rng.uniform(-1, 1, 2) * variation.shift
+    solids = _placed(make(), elevation, distance, fill, centre)
+    first = draw(solids, view_matrices(np.zeros((1, 2)), elevation, distance), distance, CONDITION)
+    alpha = first.rgba[0, ..., 3]
+    hidden = _occluder(rng, alpha) if rng.random() < variation.occluded else np.zeros_like(alpha)
+    seen = (alpha > 0.5) & (hidden < 0.5)
+    if seen.sum() < 24:
+        return None
+    grown = (distance - FRONT) / float(np.median(first.depth[0][seen]))
+    depth = first.depth[0] * grown - distance
+    return Shot(_scaled(solids, grown, distance), elevation, distance, first.rgba[0], depth, hidden)
 
 
 def random_views(rng: Rng, count: int) -> np.ndarray:  # (count, 2)
@@ -142,6 +173,8 @@ def _occluder(rng: Rng, alpha: np.ndarray) -> np.ndarray:
 
 def _condition(rng: Rng, rgba: np.ndarray, depth: np.ndarray, hidden: np.ndarray, variation: Variation) -> np.ndarray:
     """The channels of a condition; `depth` is relative to the origin."""
+    if variation.blurred and rng.random() < variation.blurred:
+        rgba = _enlarged(rgba, int(rng.integers(14, 48)))
     alpha = rgba[..., 3] * (1 - hidden)
     rgb = rgba[..., :3] / np.maximum(rgba[..., 3:], 1e-6)
     rgb = np.clip(rgb + rng.normal(size=rgb.shape) * variation.noise, 0, 1) * (alpha > 0)[..., None]
@@ -156,3 +189,9 @@ def _condition(rng: Rng, rgba: np.ndarray, depth: np.ndarray, hidden: np.ndarray
         depth = depth + rng.normal(size=depth.shape) * 0.02
     channels = [*np.moveaxis(rgb, -1, 0), alpha, hidden, np.clip(depth, -1.5, 1.5) * known, known]
     return np.stack(channels).astype(np.float32)
+
+
+def _enlarged(rgba: np.ndarray, side: int) -> np.ndarray:
+    """A premultiplied picture as if it had been taken with `side` pixels."""
+    small = cv2.resize(rgba, (side, side), interpolation=cv2.INTER_AREA)
+    return cv2.resize(small, rgba.shape[:2], interpolation=cv2.INTER_LINEAR)

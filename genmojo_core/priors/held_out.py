@@ -66,20 +66,28 @@ def mean_silhouette(batch: Batch) -> Tensor:
 
 
 def inflated(batch: Batch, thickness: float) -> Tensor:
-    """The visible surface where the depth says it is, as thick as the silhouette is wide, its texture all through."""
+    """Pictures (B, K, 4, S, S) of `inflated_volume`."""
+    side = VolumeShape().side
+    drawn = render(inflated_volume(batch.condition, thickness), batch.rays(side))
+    return drawn[..., :4].transpose(2, 3).unflatten(3, (side, side))
+
+
+def inflated_volume(condition: Tensor, thickness: float) -> Tensor:
+    """(B, 4, bins, S, S) of conditions (B, 7, 2 S, 2 S).
+
+    The visible surface where the depth says it is, as thick as the silhouette is wide, its texture all through.
+    """
     shape = VolumeShape()
-    small = functional.avg_pool2d(batch.condition, 2)
+    small = functional.avg_pool2d(condition, 2)
     alpha = small[:, 3]
     color = small[:, :3] / alpha.clamp(min=1e-3)[:, None]
-    deep = functional.avg_pool2d(batch.condition[:, 5:6], 2)[:, 0] / small[:, 6].clamp(min=1e-3)
+    deep = functional.avg_pool2d(condition[:, 5:6], 2)[:, 0] / small[:, 6].clamp(min=1e-3)
     inside = [cv2.distanceTransform((a > 0.5).astype(np.uint8), cv2.DIST_L2, 5) for a in alpha.numpy()]
     reach = torch.from_numpy(np.stack(inside)) * (2.0 / shape.side) * thickness
     z = torch.linspace(NEAR, FAR, shape.bins)[None, :, None, None]
     filled = (z >= deep[:, None]) & (z <= (deep + 2.0 * reach)[:, None] + (FAR - NEAR) / shape.bins)
     density = filled * alpha[:, None] * 40.0
-    volume = torch.cat([color[:, :, None].expand(-1, -1, shape.bins, -1, -1), density[:, None]], dim=1)
-    drawn = render(volume, batch.rays(shape.side))
-    return drawn[..., :4].transpose(2, 3).unflatten(3, (shape.side, shape.side))
+    return torch.cat([color[:, :, None].expand(-1, -1, shape.bins, -1, -1), density[:, None]], dim=1)
 
 
 def _without_depth(condition: Tensor) -> Tensor:

@@ -12,6 +12,7 @@ import torch
 from genmojo_core import __version__
 from genmojo_core.errors import GenmojoError
 from genmojo_core.priors import generator, weights
+from genmojo_core.priors.agreement import training_percentile
 from genmojo_core.priors.denoiser import LOG_SIGMA, Denoiser
 from genmojo_core.priors.embedded import EmbeddedPrior
 from genmojo_core.priors.held_out import table
@@ -23,26 +24,32 @@ from genmojo_core.priors.volume import VolumeNet
 
 @dataclass(frozen=True)
 class Times:
-    """CPU seconds for the volume and the denoiser, objects per step, seed, device."""
+    """CPU seconds for the volume and the denoiser, objects per step, seed, device; weight file to start from."""
 
     volume: float
     denoiser: float
     objects: int = 8
     seed: int = 0
     device: str = "cpu"
+    start: Path | None = None
 
 
 def make_prior(folder: Path, times: Times, hear: Callable[[str, Progress], None]) -> Path:
     """Train in `folder`, or go on there; returns the path of the weight file.
 
-    Raises GenmojoError("io") where the folder cannot be written, "schema" for a state of other networks.
+    Raises GenmojoError("io") where the folder cannot be written, "schema" for a state of other networks, and as
+    `weights.read` for the file to start from.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise GenmojoError("io", f"cannot be made ({error.strerror})", str(folder), "choose another folder") from error
     torch.manual_seed(times.seed)
-    volume, denoiser = VolumeNet(), Denoiser()
+    if times.start is None:
+        volume, denoiser = VolumeNet(), Denoiser()
+    else:
+        known = weights.read(times.start)
+        volume, denoiser = known.volume.requires_grad_(True), known.denoiser.requires_grad_(True)
 
     def report(part: str) -> Callable[[Progress], bool]:
         def tell(progress: Progress) -> bool:
@@ -56,6 +63,7 @@ def make_prior(folder: Path, times: Times, hear: Callable[[str, Progress], None]
     plan = replace(plan, seconds=times.denoiser)
     train(DenoiserTask(denoiser, volume), folder, plan, report("denoiser"))  # freezes the volume
     prior = EmbeddedPrior(volume.cpu(), denoiser.cpu())
+    prior.agreement = training_percentile(prior.volume)
     path = folder / weights.SHIPPED.name
     states = {part: read_metadata(folder / f"{part}.safetensors") for part in ("volume", "denoiser")}
     weights.write(path, prior, description(prior, times, states))

@@ -79,6 +79,8 @@ def train(task: Task, folder: Path, plan: TrainingPlan, report: Callable[[Progre
     """
     state = _State(task, plan)
     state.restore(folder)
+    if not state.steps:
+        state.save(folder)
     test = batch_of(frozen_examples(), plan.device)
     clock, last, losses = _clock(plan), state.seconds, [0.0]
     begin = clock() - state.seconds

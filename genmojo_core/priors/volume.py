@@ -119,11 +119,14 @@ class Rays:
     Args:
         to_space: (B, K, 4, 4) camera to the prior's space. distance: (B,) of every condition camera to the origin.
         xy: (B, K, R, 2) places in the picture, -1..1 right and down.
+        cameras: (B, K) distance of the pictures' own cameras to the origin, the middle of their pictures; None: as the
+            condition's.
     """
 
     to_space: Tensor
     distance: Tensor
     xy: Tensor
+    cameras: Tensor | None = None
 
 
 def picture_rays(to_space: Tensor, distance: Tensor, side: int) -> Rays:
@@ -139,14 +142,15 @@ def render(volume: Tensor, rays: Rays, samples: int = 24, jitter: torch.Generato
     Args:
         volume: (B, 4, bins, side, side). samples: per ray. jitter: moves the samples of every ray at random.
     """
-    distance = rays.distance[:, None, None, None]
+    own = rays.distance[:, None].expand(rays.xy.shape[:2]) if rays.cameras is None else rays.cameras
+    distance = own[..., None, None]
     offset = torch.full((*rays.xy.shape[:3], 1), 0.5, device=volume.device)
     if jitter is not None:
         offset = torch.rand(offset.shape, generator=jitter, device=volume.device)
     step = 2.0 * REACH / samples
     along = torch.arange(samples, dtype=torch.float32, device=volume.device)
     z = distance - REACH + (along + offset) * step  # (B, K, R, N)
-    slope = HALF_EXTENT / distance[..., None]
+    slope = HALF_EXTENT / own[..., None, None, None]
     local = torch.cat([rays.xy[..., None, :] * slope * z[..., None], z[..., None]], dim=-1)
     turn, place = rays.to_space[..., :3, :3], rays.to_space[..., :3, 3]
     points = local.flatten(2, 3) @ turn.transpose(-1, -2) + place[..., None, :]  # (B, K, R N, 3)

@@ -34,6 +34,7 @@ def write(path: Path, prior: EmbeddedPrior, description: Mapping[str, Any]) -> N
     header = {
         "format": FORMAT, "volume": json.dumps(asdict(prior.volume.shape)),
         "denoiser": json.dumps(asdict(prior.denoiser.shape)), "sha256": digest(tensors),
+        "agreement": repr(prior.agreement),
         "description": json.dumps(dict(description)),
     }  # fmt: skip
     write_bytes(path, save_tensors(tensors, metadata=header))
@@ -57,12 +58,13 @@ def read(path: Path) -> EmbeddedPrior:
     try:
         tensors = load_tensors(path.read_bytes())
         shapes = VolumeShape(**json.loads(header["volume"])), DenoiserShape(**json.loads(header["denoiser"]))
+        agreement = float(header.get("agreement", "1"))
     except (SafetensorError, ValueError, KeyError, TypeError) as error:
         raise GenmojoError("corrupt", "is damaged", str(path), "get the file again") from error
     if digest(tensors) != header.get("sha256"):
         raise GenmojoError("corrupt", "does not match its checksum", str(path), "get the file again")
     with torch.random.fork_rng(devices=[]):  # first weights are drawn and thrown away; nobody's numbers change by it
-        prior = EmbeddedPrior(VolumeNet(shapes[0]), Denoiser(shapes[1]))
+        prior = EmbeddedPrior(VolumeNet(shapes[0]), Denoiser(shapes[1]), agreement)
     wanted = _named(prior)
     if {n: v.shape for n, v in wanted.items()} != {n: v.shape for n, v in tensors.items()}:
         raise GenmojoError("schema", "holds tensors that its architecture has not", str(path), "get the file again")

@@ -4,7 +4,13 @@ from __future__ import annotations
 
 import importlib
 import json
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import torch
@@ -31,8 +37,10 @@ def load(
             Stable-Zero123, anything else Zero123. half: UNet in float16; VAE and image encoder stay float32.
         scale: classifier-free guidance.
 
-    Raises GenmojoError: "missing_package" for a missing library or component, "format" for weights that are no
-    safetensors, "schema" for a projection of another size.
+    Weights are safetensors, or else torch's `.bin`, which a process of its own turns into safetensors.
+
+    Raises GenmojoError: "missing_package" for a missing library or component, "format" for a component without weights,
+    "unsafe_pickle" for a `.bin` that holds more than tensors, "schema" for a projection of another size.
     """
     folder = Path(folder)
     if not folder.is_dir():
@@ -73,15 +81,14 @@ def _component(folder: Path, library: str, name: str) -> Any:
     if not (folder / "config.json").is_file():
         raise GenmojoError("missing_package", "is missing or holds no config.json", str(folder),
                            "give a complete model in diffusers' layout")  # fmt: skip
-    if not list(folder.glob("*.safetensors")):
-        raise GenmojoError("format", "holds no safetensors weights", str(folder), "save the model as safetensors")
     try:
         loader = getattr(importlib.import_module(library), name)
     except (ImportError, AttributeError) as error:
         raise GenmojoError("missing_package", f"the package {library} is not installed", "--prior",
                            "install genmojo-studio[zero123]") from error  # fmt: skip
     try:
-        return loader.from_pretrained(str(folder), local_files_only=True, use_safetensors=True)
+        with _safe_folder(folder) as safe:
+            return loader.from_pretrained(str(safe), local_files_only=True, use_safetensors=True)
     except _FAULTS as error:
         reason = str(error).splitlines()[0][:120]
         raise GenmojoError("missing_package", f"cannot be loaded as {name} ({reason})", str(folder),
@@ -91,23 +98,47 @@ def _component(folder: Path, library: str, name: str) -> Any:
 def _projection(folder: Path) -> torch.nn.Linear:
     """The Linear from embedding and camera to a token, under either of its two names."""
     for name, key in PROJECTIONS.items():
-        files = sorted((folder / name).glob("*.safetensors"))
-        if not files:
-            if (folder / name).is_dir():
-                raise GenmojoError("format", "holds no safetensors weights", str(folder / name),
-                                   "save the projection as safetensors; other formats can run code")  # fmt: skip
+        if not (folder / name).is_dir():
             continue
         try:
-            tensors = load_file(files[0])
+            with _safe_folder(folder / name) as safe:
+                file = sorted(safe.glob("*.safetensors"))[0]
+                tensors = load_file(file)
             weight, bias = tensors[f"{key}.weight"].float(), tensors[f"{key}.bias"].float()
         except (SafetensorError, KeyError, OSError) as error:
-            raise GenmojoError("format", f"holds no Linear '{key}'", str(files[0])) from error
+            raise GenmojoError("format", f"holds no Linear '{key}'", str(file)) from error
         linear = torch.nn.Linear(weight.shape[1], weight.shape[0])
         linear.weight.data.copy_(weight)
         linear.bias.data.copy_(bias)
         return linear
     raise GenmojoError("missing_package", f"has neither {' nor '.join(PROJECTIONS)}", str(folder),
                        "give a complete model in diffusers' layout")  # fmt: skip
+
+
+@contextmanager
+def _safe_folder(folder: Path) -> Iterator[Path]:
+    """The folder if it holds safetensors, else a temporary one with its `.bin` as safetensors and its config.
+
+    Raises GenmojoError: "format" without weights or with several `.bin`, "unsafe_pickle" for more than tensors.
+    """
+    if list(folder.glob("*.safetensors")):
+        yield folder
+        return
+    files = list(folder.glob("*.bin"))
+    if len(files) != 1:
+        raise GenmojoError("format", f"holds no safetensors and {len(files)} bin files", str(folder),
+                           "save the model as safetensors")  # fmt: skip
+    with TemporaryDirectory() as made:
+        if (folder / "config.json").is_file():
+            shutil.copy(folder / "config.json", made)
+        target = Path(made) / f"{files[0].stem.removeprefix('pytorch_')}.safetensors"
+        command = [sys.executable, "-m", "genmojo_core.priors.bin_weights_process", str(files[0]), str(target)]
+        done = subprocess.run(command, capture_output=True, check=False)
+        if done.returncode:
+            words = done.stderr.decode(errors="replace").strip().splitlines() or ["cannot be read"]
+            raise GenmojoError("unsafe_pickle" if done.returncode == 3 else "format", words[-1][:200], str(files[0]),
+                               "get the model as safetensors")  # fmt: skip
+        yield Path(made)
 
 
 def _guess_camera(folder: Path, numbers: int) -> Camera:

@@ -16,7 +16,8 @@ class Gaussians(nn.Module):
         means: (N, 3) object units. quats: (N, 4) wxyz, not necessarily unit. log_scales: (N, 3) natural log.
         logit_opacities: (N,). dc: (N, 3) constant spherical-harmonic coefficient, rgb = 0.5 + SH_C0 dc.
 
-    `uid` (N,) int64 is stable over density control; `next_uid` is the first unused one.
+    `uid` (N,) int64 is stable over density control; `next_uid` is the first unused one. `invented` (N,) bool: drawn by
+    a prior where no frame shows anything, or grown from such a one.
     """
 
     NAMES = ("means", "quats", "log_scales", "logit_opacities", "dc")
@@ -26,6 +27,7 @@ class Gaussians(nn.Module):
         for name, value in zip(self.NAMES, (means, quats, log_scales, logit_opacities, dc), strict=True):
             self.register_parameter(name, nn.Parameter(value.detach().clone().float().contiguous()))
         self.register_buffer("uid", torch.arange(len(means)))
+        self.register_buffer("invented", torch.zeros(len(means), dtype=torch.bool))
         self.next_uid = len(means)
 
     means: nn.Parameter
@@ -34,6 +36,7 @@ class Gaussians(nn.Module):
     logit_opacities: nn.Parameter
     dc: nn.Parameter
     uid: Tensor
+    invented: Tensor
 
     def __len__(self) -> int:
         return self.means.shape[0]
@@ -62,12 +65,17 @@ class Gaussians(nn.Module):
         """(N, 3) linear standard deviations in object units."""
         return safemath.exp_scale(self.log_scales)
 
-    def replace_rows(self, keep: Tensor, added: dict[str, Tensor]) -> None:
-        """Keep some rows (indices) and append new ones; new rows get fresh uids. Optimiser state is density.py's."""
+    def replace_rows(self, keep: Tensor, added: dict[str, Tensor], invented: Tensor | None = None) -> None:
+        """Keep some rows (indices) and append new ones; new rows get fresh uids. Optimiser state is density.py's.
+
+        invented: (new rows,) bool, None for none of them.
+        """
         count = len(added["means"])
         fresh = torch.arange(self.next_uid, self.next_uid + count)
         self.next_uid += count
         self.uid = torch.cat([self.uid[keep], fresh])
+        added_invented = torch.zeros(count, dtype=torch.bool) if invented is None else invented
+        self.invented = torch.cat([self.invented[keep], added_invented])
         for name in self.NAMES:
             old = getattr(self, name)
             setattr(self, name, nn.Parameter(torch.cat([old.detach()[keep], added[name].detach()]).contiguous()))

@@ -68,7 +68,7 @@ def made(clip, untrained, **changes):
     return run
 
 
-def test_no_gradient_reaches_places_or_light(clip, untrained):
+def test_no_gradient_reaches_places_motion_or_light(clip, untrained):
     run = made(clip, untrained)
     run.optimiser.zero_grad(set_to_none=True)
     outcome = type("Outcome", (), {"loss": torch.zeros(()), "parts": {}})()
@@ -76,7 +76,7 @@ def test_no_gradient_reaches_places_or_light(clip, untrained):
     outcome.loss.backward()
     touched = {name for name, p in run.scene.named_parameters() if p.grad is not None and p.grad.any()}
     assert any(name.endswith("means") for name in touched) and any(name.endswith("dc") for name in touched)
-    assert not any("placement" in name or "gain" in name or "background" in name for name in touched)
+    assert all(".gaussians." in name for name in touched), "no place, no light, no background, no motion"
 
 
 def test_all_objects_or_one_per_step_and_the_scene_as_one(clip, untrained):
@@ -95,11 +95,18 @@ def test_objects_that_cannot_be_references_are_named(clip):
 
 
 def test_held_out_pixels_can_switch_it_off(clip, monkeypatch):
+    """The untrained slab is in the way or not: either answer is asked for, and what it invented goes with it."""
     monkeypatch.setattr(unseen, "WORSE", -100.0)
-    events = list(small_run(clip, prior="embedded"))
+    run = small_run(clip, prior="embedded")
+    events = list(run)
     changed = [e for e in events if isinstance(e, EffectChanged)]
     assert len(changed) == 1 and changed[0].effect == "unseen_views" and "held-out" in changed[0].reason
-    assert "unseen" not in steps(events)[-1].losses
+    assert changed[0].reason.count("dB") == 2 and "unseen" not in steps(events)[-1].losses
+    assert not any(model.gaussians.invented.any() for model in run.scene.objects)
+    monkeypatch.setattr(unseen, "WORSE", 100.0)
+    run = small_run(clip, prior="embedded")
+    assert not any(isinstance(e, EffectChanged) for e in run)
+    assert any(model.gaussians.invented.any() for model in run.scene.objects)
 
 
 def test_schedules():
@@ -132,8 +139,8 @@ def test_what_frames_show_does_not_follow_the_prior(clip, untrained):
     outcome.loss.backward()
     followed = 0
     for model in run.scene.objects:
-        gradient, first = model.gaussians.means.grad, run.unseen.first_free[model.id]
+        gradient, invented = model.gaussians.means.grad, model.gaussians.invented
         if gradient is not None:
-            assert not gradient[model.gaussians.uid < first].any()
-            followed += int(gradient[model.gaussians.uid >= first].any())
+            assert not gradient[~invented].any()
+            followed += int(gradient[invented].any())
     assert followed

@@ -14,7 +14,7 @@ diffusers = pytest.importorskip("diffusers")
 transformers = pytest.importorskip("transformers")
 pytestmark = pytest.mark.slow  # importing the libraries alone takes seconds
 
-from safetensors.torch import save_file  # noqa: E402
+from safetensors.torch import load_file, save_file  # noqa: E402
 
 from genmojo_core.errors import GenmojoError  # noqa: E402
 from genmojo_core.priors import zero123_folder  # noqa: E402
@@ -196,3 +196,43 @@ def test_original_checkpoints_point_to_the_converter(tmp_path):
     (tmp_path / "zero123-xl.ckpt").write_bytes(b"x")
     with pytest.raises(GenmojoError, match="convert"):
         zero123_folder.load(tmp_path)
+
+
+def as_bin(tiny, folder, held=lambda tensors: tensors):
+    """The tiny model with every safetensors file as torch's own format; `held` changes what is pickled."""
+    for source in tiny.rglob("*"):
+        target = folder / source.relative_to(tiny)
+        if source.is_dir():
+            target.mkdir()
+        elif source.suffix != ".safetensors":
+            target.write_bytes(source.read_bytes())
+        else:
+            stem = "pytorch_model" if source.stem == "model" else source.stem
+            torch.save(held(load_file(source)), target.with_name(f"{stem}.bin"))
+    return folder
+
+
+def test_bin_weights_give_the_same_prior(tiny, tmp_path):
+    ours, theirs = zero123_folder.load(tiny), zero123_folder.load(as_bin(tiny, tmp_path))
+    for part in ("unet", "vae", "image_encoder", "projection"):
+        one, two = (getattr(prior.networks, part).state_dict() for prior in (ours, theirs))
+        assert all(torch.equal(one[name], two[name]) for name in one)
+
+
+class Opener:
+    """Writes a file when it is unpickled by a reader that trusts it."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def __reduce__(self):
+        return open, (str(self.path), "w")
+
+
+def test_bin_weights_that_hold_more_than_tensors_run_nothing(tiny, tmp_path):
+    trap = tmp_path / "trap"
+    (tmp_path / "model").mkdir()
+    folder = as_bin(tiny, tmp_path / "model", lambda tensors: {**tensors, "more": Opener(trap)})
+    with pytest.raises(GenmojoError, match="more than tensors"):
+        zero123_folder.load(folder)
+    assert not trap.exists()
