@@ -8,6 +8,7 @@ prior does not understand the object (or that its motion is not known), and that
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import torch
@@ -81,13 +82,17 @@ def _of_training_object(net: VolumeNet, rng: np.random.Generator) -> float:
     for one in (solids, turned):
         taken = None
         while taken is None:
-            taken = shot(rng, lambda one=one: one, TRAINING)
+            taken = shot(rng, partial(_same, one), TRAINING)
         condition = torch.from_numpy(taken.condition(rng, TRAINING))[None]
         with torch.no_grad():
             volume = net(condition, torch.tensor([facts_of(taken.elevation, taken.distance)]))
         volumes.append(Seen(volume, taken.elevation, taken.distance))
         places.append(_square(taken.solids.placed[0]) @ np.linalg.inv(_square(solids.placed[0])))
     return disagreement(volumes[0], volumes[1], places[1] @ np.linalg.inv(places[0]))
+
+
+def _same(solids: Solids) -> Solids:
+    return solids
 
 
 def _square(affine: np.ndarray) -> np.ndarray:

@@ -94,6 +94,14 @@ def test_objects_that_cannot_be_references_are_named(clip):
     assert any(hidden.object_names[0] in text and "smaller than" in text for text in said)
 
 
+def test_two_frames_that_do_not_agree_switch_it_off(clip, untrained, monkeypatch):
+    monkeypatch.setattr(untrained, "agreement", -1.0)
+    run = small_run(clip, prior="embedded", lift_steps=1, joint_steps=1)
+    said = [e.message for e in run if isinstance(e, Warned) and e.code == "prior"]
+    assert all(any(name in text and "differs by" in text for text in said) for name in clip.object_names)
+    assert not any(model.gaussians.invented.any() for model in run.scene.objects)
+
+
 def test_held_out_pixels_can_switch_it_off(clip, monkeypatch):
     """The untrained slab is in the way or not: either answer is asked for, and what it invented goes with it."""
     monkeypatch.setattr(unseen, "WORSE", -100.0)

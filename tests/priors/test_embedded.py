@@ -11,6 +11,7 @@ import torch
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.priors import make, weights
+from genmojo_core.priors.agreement import Seen, disagreement, training_percentile
 from genmojo_core.priors.batches import batch_of, make_batch
 from genmojo_core.priors.completion import surface_points, unseen_only
 from genmojo_core.priors.denoiser import SPREAD, Denoiser
@@ -236,3 +237,24 @@ def test_train_prior_from_nothing_to_a_described_file(tmp_path):
     batch = make_batch(np.random.default_rng(0), 2)
     loss = DenoiserTask(Denoiser(), VolumeNet()).loss(batch, torch.Generator().manual_seed(0))
     assert torch.isfinite(loss)
+
+
+def test_volumes_of_one_object_agree_and_of_two_objects_do_not(shipped):
+    """The same volume agrees with itself wherever it is moved; unlike objects differ by more than the limit."""
+    one, two = (reference(frozen_examples()[i]) for i in (3, 12))
+    first, second = (Seen(shipped.encode(r).volume, r.elevation, r.distance) for r in (one, two))
+    assert disagreement(first, first, np.eye(4)) < 1e-3
+    grown = np.diag([1.3, 1.3, 1.3, 1.0])
+    assert 0.1 < disagreement(first, first, grown) < 0.8
+    assert disagreement(first, second, np.eye(4)) > 0.3
+
+
+def test_two_shots_of_training_objects_agree_better_than_shots_of_different_ones(shipped):
+    """The limit that is stored with a file separates something: most pairs of unlike objects lie above it."""
+    limit = training_percentile(shipped.volume, 24)
+    assert 0.2 < limit < 0.8
+    seen = [reference(one) for one in frozen_examples()[:12]]
+    volumes = [Seen(shipped.encode(r).volume, r.elevation, r.distance) for r in seen]
+    unlike = [disagreement(volumes[i], volumes[i - 1], np.eye(4)) for i in range(12)]
+    same = [disagreement(volume, volume, np.eye(4)) for volume in volumes]
+    assert max(same) < min(unlike) and np.median(unlike) > 0.8 * limit
