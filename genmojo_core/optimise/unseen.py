@@ -263,8 +263,8 @@ def held_out_psnr(objective: Objective) -> float:
     error, count = 0.0, 0
     with torch.no_grad():
         for t in range(objective.frames):
-            outcome = objective.evaluate([t], True, torch.Generator().manual_seed(0))
-            error, count = error + outcome.held_out[0][1], count + outcome.held_out[0][2]
+            row = objective.evaluate([t], True, torch.Generator().manual_seed(0)).held_out[0]
+            error, count = error + row.squared, count + row.count
     return -10.0 * math.log10(max(error / count, 1e-10)) if count else 0.0
 
 
