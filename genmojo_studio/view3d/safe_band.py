@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from genmojo_studio.view3d.orbit import Orbit
@@ -12,13 +10,19 @@ SAFE_DEGREES = 10.0  # a view this close to a supervised one counts as supervise
 
 
 def degrees_outside(orbit: Orbit, supervised: np.ndarray) -> float:
-    """Angle to the nearest supervised direction; rows (elevation, azimuth, frame) as in a snapshot.
+    """Angle of a view to the nearest supervised direction, as `degrees_to_supervised`."""
+    return float(degrees_to_supervised(np.array([[orbit.elevation, orbit.azimuth]]), supervised)[0])
+
+
+def degrees_to_supervised(angles: np.ndarray, supervised: np.ndarray) -> np.ndarray:  # (N, 2) degrees -> (N,) degrees
+    """Angle of directions (elevation, azimuth) to the nearest of rows (elevation, azimuth, frame) as in a snapshot.
 
     The input camera (0, 0) always was supervised.
     """
-    angles = np.concatenate([np.zeros((1, 2)), np.asarray(supervised, np.float64).reshape(-1, 3)[:, :2]])
-    cosine = float((_directions(angles) @ _directions(np.array([[orbit.elevation, orbit.azimuth]]))[0]).max())
-    return math.degrees(math.acos(min(max(cosine, -1.0), 1.0)))
+    rows = np.asarray(supervised, np.float64).reshape(-1, 3)[:, :2]
+    seen = np.unique(np.concatenate([np.zeros((1, 2)), rows]), axis=0)
+    cosine = (_directions(np.asarray(angles, np.float64)) @ _directions(seen).T).max(axis=1)
+    return np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
 
 
 def _directions(angles: np.ndarray) -> np.ndarray:  # (M, 2) degrees -> (M, 3) unit

@@ -113,6 +113,7 @@ class Center(QWidget):
         super().__init__()
         self._state = state
         self.mode = COMPARES[1]
+        self._beside = False
         self.comparison = Comparison(state, session, self)
         self.view = view
         self.input_picture = Picture(state)
@@ -153,7 +154,7 @@ class Center(QWidget):
         """One of `actions.COMPARES`."""
         self.mode = mode
         joined = mode in _JOINED
-        self.input_picture.setVisible(mode == "side")
+        self.input_picture.setVisible(mode == "side" and not self._beside)
         self.view.setVisible(not joined)
         self.joined_picture.setVisible(joined)
         self.share.setVisible(joined)
@@ -165,6 +166,13 @@ class Center(QWidget):
         self.figures.setVisible(mode != "scene")
         _mark(self.compare_choice, f"compare.{mode}")
         self._show_input()
+
+    def set_beside(self, shown: bool) -> None:
+        """While another scene stands beside this one, the input makes room for it; all panes are equally wide."""
+        if shown != self._beside:
+            self._beside = shown
+            self.set_mode(self.mode)
+            self.splitter.setSizes([1000] * self.splitter.count())
 
     def show_render_mode(self, mode: str) -> None:
         """Marks the render mode that the view shows."""

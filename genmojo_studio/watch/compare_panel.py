@@ -34,7 +34,7 @@ from genmojo_studio.watch.picture import Picture
 
 MODES = ("off", "side", "wipe", "blink", "difference")
 _BLINK_MS = 450
-_WIDTH = 640  # pixels at most of the pictures that are compared
+_WIDTH = 800  # pixels at most of the pictures that are compared
 
 
 @dataclass(frozen=True)
@@ -67,10 +67,12 @@ class Pair:
 class ComparePanel(QWidget):
     """Choices and figures; `pane` is the picture that the workspace puts beside the view.
 
-    `request_wanted`: the workspace answers by `show_request` with what the view shows.
+    `request_wanted`: the workspace answers by `show_request` with what the view shows. `active_changed`: the pane came
+    or went.
     """
 
     request_wanted = Signal()
+    active_changed = Signal(bool)
 
     def __init__(self, state: AppState, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -161,6 +163,7 @@ class ComparePanel(QWidget):
 
     def _take_mode(self) -> None:
         self.pane.setVisible(self.active)
+        self.active_changed.emit(self.active)
         blinking = self.active and self.mode.currentData() == "blink"
         self._blink.start() if blinking else self._blink.stop()
         self.share.setEnabled(self.mode.currentData() in ("wipe", "difference"))

@@ -47,7 +47,7 @@ class Curves(QWidget):
         self.said = QLabel()
         self.said.setProperty("role", "dim")
         self.plot = pg.PlotWidget()
-        self.plot.addLegend(offset=(-8, 8), labelTextSize="8pt")
+        self.plot.addLegend(offset=(-8, -8), labelTextSize="8pt")
         self.plot.setLabel("bottom", tr("seconds"))
         self.plot.getPlotItem().setDownsampling(auto=True, mode="peak")
         self.plot.setClipToView(True)

@@ -19,6 +19,7 @@ from genmojo_studio.watch import plots, trajectory
 from genmojo_studio.watch.controls import line
 from genmojo_studio.watch.trajectory import Trajectory
 
+_OWN_NUMBER = (1 << 48) - 1  # the object's id stands above these bits of a Gaussian's number
 _MOST_ROWS = 40
 _ROW = Qt.ItemDataRole.UserRole
 
@@ -105,6 +106,16 @@ class PickingPanel(QWidget):
         for column in range(5):
             self.list.resizeColumnToContents(column)
 
+    def renew(self, snapshot: SceneSnapshot | None) -> None:
+        """A newer snapshot of the same run: the way of the Gaussian that is followed, once all frames are known."""
+        known = self.trajectory
+        if known is None or snapshot is None or snapshot.frames is None or len(known.position) == snapshot.T:
+            return
+        rows = np.flatnonzero(snapshot.uid == known.uid)
+        if len(rows) and not self._tasks.busy:
+            row = int(rows[0])
+            self._tasks.run(lambda: trajectory.of(snapshot, row), self._take, notify.tell)
+
     def _follow_chosen(self) -> None:
         item, snapshot = self.list.currentItem(), self._snapshot
         if item is None or snapshot is None:
@@ -138,7 +149,13 @@ class PickingPanel(QWidget):
 
 
 def _item(one: Contributor) -> QTreeWidgetItem:
-    texts = [one.object_name, f"{100 * one.weight:.1f} %", f"{one.depth:.3f}", f"{one.opacity:.2f}", str(one.uid)]
+    texts = [
+        one.object_name,
+        f"{100 * one.weight:.1f} %",
+        f"{one.depth:.3f}",
+        f"{one.opacity:.2f}",
+        str(one.uid & _OWN_NUMBER),
+    ]
     item = QTreeWidgetItem(texts)
     item.setData(0, _ROW, one.row)
     picture = QPixmap(14, 14)

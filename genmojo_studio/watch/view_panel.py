@@ -22,12 +22,14 @@ from PySide6.QtWidgets import (
 from genmojo_core.errors import GenmojoError
 from genmojo_studio import notify
 from genmojo_studio.actions import ActionTable
+from genmojo_studio.state import AppState
 from genmojo_studio.translate import tr
 from genmojo_studio.view3d.orbit import Orbit, Reference, parse
 from genmojo_studio.view3d.safe_band import SAFE_DEGREES, degrees_outside
 from genmojo_studio.watch.actions import VIEWS
 from genmojo_studio.watch.appearance import Appearance
 from genmojo_studio.watch.controls import number, row, set_role
+from genmojo_studio.watch.view_map import ViewMap
 
 
 class ViewPanel(QWidget):
@@ -35,7 +37,9 @@ class ViewPanel(QWidget):
 
     orbit_wanted = Signal(object)
 
-    def __init__(self, actions: ActionTable, appearance: Appearance, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, state: AppState, actions: ActionTable, appearance: Appearance, parent: QWidget | None = None
+    ) -> None:
         super().__init__(parent)
         self._appearance = appearance
         self._orbit = Orbit()
@@ -51,6 +55,8 @@ class ViewPanel(QWidget):
         for (name, field), title in zip(self.fields.items(), titles, strict=True):
             form.addRow(title, field)
             field.valueChanged.connect(lambda value, name=name: self._typed(name, value))
+        self.map = ViewMap(state)
+        self.map.orbit_wanted.connect(self.orbit_wanted)
         self.badge = QLabel()
         self.badge.setWordWrap(True)
         self.splat_scale = QSlider(Qt.Orientation.Horizontal)
@@ -66,7 +72,7 @@ class ViewPanel(QWidget):
             button = QPushButton(tr(text))
             button.setToolTip(f"{tr(text)} ({key})")
             button.clicked.connect(lambda _=False, name=name: actions.trigger(f"view.{name}"))
-            directions.addWidget(button, i // 2, i % 2)
+            directions.addWidget(button, i // 3, i % 3)
         copy, paste = QPushButton(tr("Copy")), QPushButton(tr("Paste"))
         copy.setToolTip(tr("Copies these numbers as text"))
         copy.clicked.connect(lambda: QGuiApplication.clipboard().setText(self._orbit.text()))
@@ -74,6 +80,7 @@ class ViewPanel(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(8, 8, 8, 8)
         layout.addLayout(form)
+        layout.addWidget(self.map)
         layout.addWidget(self.badge)
         layout.addLayout(directions)
         layout.addLayout(row(copy, paste))
@@ -100,6 +107,7 @@ class ViewPanel(QWidget):
             field.blockSignals(True)
             field.setValue(values[name])
             field.blockSignals(False)
+        self.map.show_view(orbit, supervised)
         text, role = judged(orbit, supervised)
         self.badge.setText(text)
         set_role(self.badge, role)

@@ -60,7 +60,7 @@ class WatchWorkspace(QMainWindow):
         self.view = LiveView(state, self.appearance, self.undo)
         self.compare = ComparePanel(state)
         self.center = Center(state, actions, self.session, self.view, self.compare.pane)
-        self.view_panel = ViewPanel(actions, self.appearance)
+        self.view_panel = ViewPanel(state, actions, self.appearance)
         self.objects_panel = ObjectsPanel(state, actions, self.appearance)
         self.setup = RunSetup(state)
         self.status = RunStatus(state, actions, self.control)
@@ -177,7 +177,7 @@ class WatchWorkspace(QMainWindow):
         wide = max(290, self.width() // 6), max(380, self.width() // 5)
         self.resizeDocks([self.docks["view"], self.docks["run"]], list(wide), Qt.Orientation.Horizontal)
         self.resizeDocks([self.docks["curves"]], [self.height() // 3], Qt.Orientation.Vertical)
-        self.resizeDocks([self.docks["view"], self.docks["objects"]], [430, 300], Qt.Orientation.Vertical)
+        self.resizeDocks([self.docks["view"], self.docks["objects"]], [500, 240], Qt.Orientation.Vertical)
 
     def _dock(self, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
         dock = QDockWidget(title)
@@ -203,6 +203,7 @@ class WatchWorkspace(QMainWindow):
         self.view.picked.connect(self._picked)
         self.picking.trajectory_changed.connect(self._show_tracks)
         self.compare.request_wanted.connect(self._show_comparison)
+        self.compare.active_changed.connect(self.center.set_beside)
         self.view_panel.orbit_wanted.connect(self.view.set_orbit)
         self.center.comparison.measured.connect(self.objects_panel.show_psnr)
         self.tracks.changed.connect(self._show_tracks)
@@ -215,6 +216,7 @@ class WatchWorkspace(QMainWindow):
         snapshot = self.session.snapshot
         self.view.show_snapshot(snapshot)
         self.objects_panel.show_snapshot(snapshot)
+        self.picking.renew(snapshot)
         self.compare.show_first(self._scene_name(), snapshot, self.session.scene)
         self._show_orbit()
 
@@ -270,6 +272,9 @@ class WatchWorkspace(QMainWindow):
     def _picked(self, found: Pick) -> None:
         self.picking.show_pick(found, self.session.snapshot)
         self.docks["picking"].raise_()
+        snapshot = self.session.snapshot
+        if self.control.live and snapshot is not None and snapshot.frames is None:
+            self.control.client.sweep()  # the other frames, for its trajectory
         if found.main is not None:
             self.state.set(selected_object=found.main.object_id)
 

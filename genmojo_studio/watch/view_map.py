@@ -1,0 +1,167 @@
+"""All directions at a glance: which were supervised, how far the others are from them, and where the view is."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QFocusEvent, QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QWidget
+
+from genmojo_studio.state import AppState
+from genmojo_studio.theme import colours
+from genmojo_studio.translate import tr
+from genmojo_studio.view3d.orbit import Orbit
+from genmojo_studio.view3d.safe_band import SAFE_DEGREES, degrees_to_supervised
+
+_CELL = 5  # degrees of one cell of the map
+_FAR = 90.0  # degrees from any supervised view, from where it gets no darker
+_STEP = 5.0  # degrees that an arrow key turns
+_KEYS = {Qt.Key.Key_Left: (0, -1), Qt.Key.Key_Right: (0, 1), Qt.Key.Key_Up: (1, 0), Qt.Key.Key_Down: (-1, 0)}
+_AXIS = 14  # pixels of the rim with the numbers
+
+
+class ViewMap(QWidget):
+    """Azimuth -180..180 from left to right, elevation 90..-90 from top to bottom.
+
+    Green: within the safe band of a supervised view; amber, ever darker: far from all. A click, a drag or the arrow
+    keys turn the view: `orbit_wanted(Orbit)`.
+    """
+
+    orbit_wanted = Signal(object)
+
+    def __init__(self, state: AppState, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._state = state
+        self._orbit = Orbit()
+        self._supervised = np.zeros((0, 3), np.float32)
+        self._away = np.zeros((0, 0))
+        self.setMinimumHeight(120)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAccessibleName(tr("Map of directions"))
+        self.setToolTip(
+            tr("Every direction: green was supervised or is within {degrees:.0f}° of it, dark is a guess.\n"
+               "Points are supervised views, the ring is this view. Click, drag or use the arrow keys to turn.")
+            .format(degrees=SAFE_DEGREES)
+        )  # fmt: skip
+        state.subscribe(self.update, "theme")
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Two to one, as the angles."""
+        return QSize(300, 160)
+
+    def show_view(self, orbit: Orbit, supervised: np.ndarray) -> None:
+        """Where the view is; `supervised` are rows (elevation, azimuth, frame) as in a snapshot."""
+        if not self._away.size or not np.array_equal(supervised, self._supervised):
+            self._supervised = np.asarray(supervised)
+            self._away = distances(self._supervised)
+        self._orbit = orbit
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
+        """The field, supervised views, the view's own place."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        table, field = colours(self._state.theme), self._field()
+        if self._away.size and self.isEnabled():
+            painter.drawImage(field, self._image())
+            self._paint_points(painter, field, table.text)
+        else:
+            painter.fillRect(field, QColor(table.field))
+        painter.setPen(QColor(table.line))
+        painter.drawRect(field)
+        font = painter.font()
+        font.setPixelSize(10)
+        painter.setFont(font)
+        painter.setPen(QColor(table.dim))
+        for azimuth in (-180, -90, 0, 90, 180):
+            x = _place(field, 0, azimuth).x()
+            box = QRectF(min(max(x - 20, 0), self.width() - 40), field.bottom() + 1, 40, _AXIS)
+            aligned = {-180: Qt.AlignmentFlag.AlignLeft, 180: Qt.AlignmentFlag.AlignRight}
+            painter.drawText(box, aligned.get(azimuth, Qt.AlignmentFlag.AlignHCenter), f"{azimuth}°")
+        painter.setPen(QPen(QColor(table.line), 1, Qt.PenStyle.DotLine))
+        painter.drawLine(_place(field, 0, -180), _place(field, 0, 180))
+        painter.drawLine(_place(field, 90, 0), _place(field, -90, 0))
+        if self.hasFocus():
+            painter.setPen(QPen(QColor(table.accent), 2))
+            painter.drawRect(field)
+        painter.end()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Turns the view there."""
+        self._go(event.position())
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """And follows the mouse while a button is down."""
+        if event.buttons() & Qt.MouseButton.LeftButton:
+            self._go(event.position())
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
+        """Arrow keys turn by five degrees."""
+        turn = _KEYS.get(Qt.Key(event.key()))
+        if turn is None or event.modifiers():
+            super().keyPressEvent(event)
+            return
+        self.orbit_wanted.emit(self._orbit.turned(_STEP * turn[0], _STEP * turn[1]))
+
+    def focusInEvent(self, event: QFocusEvent) -> None:  # noqa: N802 - Qt's name
+        """A frame shows that keys arrive here."""
+        super().focusInEvent(event)
+        self.update()
+
+    def _field(self) -> QRectF:
+        return QRectF(1, 1, self.width() - 2, self.height() - 2 - _AXIS)
+
+    def _go(self, point: QPointF) -> None:
+        if self.isEnabled():
+            elevation, azimuth = angles_at(self._field(), point)
+            self.orbit_wanted.emit(replace(self._orbit, elevation=elevation, azimuth=azimuth))
+
+    def _image(self) -> QImage:
+        table = colours(self._state.theme)
+        safe, near, far = (_rgb(table.good), _rgb(table.warn), _rgb(table.field))
+        share = np.clip((self._away - SAFE_DEGREES) / (_FAR - SAFE_DEGREES), 0, 1)[..., None] ** 0.5
+        pixels = np.where(
+            self._away[..., None] <= SAFE_DEGREES, safe, 0.75 * near * (1 - share) + far * (share * 0.75 + 0.25)
+        )
+        pixels = np.ascontiguousarray(pixels.round().astype(np.uint8))
+        height, width = pixels.shape[:2]
+        return QImage(pixels.data, width, height, 3 * width, QImage.Format.Format_RGB888).copy()
+
+    def _paint_points(self, painter: QPainter, field: QRectF, ink: str) -> None:
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor(ink))
+        for elevation, azimuth in np.unique(np.round(self._supervised[:, :2]), axis=0):
+            painter.drawEllipse(_place(field, float(elevation), float(azimuth)), 2, 2)
+        here = _place(field, self._orbit.elevation, self._orbit.azimuth)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        for colour, width in ((QColor("black"), 4), (QColor("white"), 2)):  # seen on every colour
+            painter.setPen(QPen(colour, width))
+            painter.drawEllipse(here, 6, 6)
+
+
+def distances(supervised: np.ndarray) -> np.ndarray:  # (36, 72) degrees
+    """Angle of every cell's middle to the nearest supervised view, rows from the top down."""
+    elevation = np.arange(90 - _CELL / 2, -90, -_CELL)
+    azimuth = np.arange(-180 + _CELL / 2, 180, _CELL)
+    grid = np.stack(np.meshgrid(elevation, azimuth, indexing="ij"), -1)
+    return degrees_to_supervised(grid.reshape(-1, 2), supervised).reshape(grid.shape[:2])
+
+
+def angles_at(field: QRectF, point: QPointF) -> tuple[float, float]:
+    """(elevation, azimuth) in degrees of a point on the map."""
+    across = min(max((point.x() - field.left()) / field.width(), 0.0), 1.0)
+    down = min(max((point.y() - field.top()) / field.height(), 0.0), 1.0)
+    return 90.0 - 180.0 * down, 360.0 * across - 180.0
+
+
+def _place(field: QRectF, elevation: float, azimuth: float) -> QPointF:
+    return QPointF(
+        field.left() + (azimuth + 180.0) / 360.0 * field.width(),
+        field.top() + (90.0 - elevation) / 180.0 * field.height(),
+    )
+
+
+def _rgb(colour: str) -> np.ndarray:
+    return np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)], np.float64)
