@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import random
 import signal
+import sys
 import time
 
 import pytest
@@ -49,13 +50,19 @@ def end_and_resume(run_dir, fault, at):
 
 
 KINDS = {"killed": "killed", "shot": "segfault", "segfault": "segfault", "memory": "memory", "exception": "exception",
+         "allocate": "memory",
          "input": "input", "exit": "exception"}  # fmt: skip
 
 
-@pytest.mark.parametrize("fault", KINDS)
+@pytest.mark.parametrize("fault", [
+    pytest.param(fault, marks=pytest.mark.skipif(fault == "allocate" and sys.platform != "linux", reason="RLIMIT_AS"))
+    for fault in KINDS
+])  # fmt: skip
 def test_each_end_is_named(tmp_path, fault):
     report = end_and_resume(tmp_path, fault, 15)
     assert report.kind == KINDS[fault]
+    if fault == "allocate":  # the system refused, nobody raised it by hand
+        assert "Unable to allocate" in report.detail
     if fault == "exception":
         assert "ZeroDivisionError" in report.title and "_spoil" in report.detail
     if fault in ("shot", "segfault"):
@@ -63,7 +70,7 @@ def test_each_end_is_named(tmp_path, fault):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("fault", ["killed", "shot", "memory", "exception"])
+@pytest.mark.parametrize("fault", ["killed", "shot", "allocate", "exception"])
 def test_twenty_random_points(tmp_path, fault):
     dice = random.Random(fault)
     for i in range(20):

@@ -117,6 +117,8 @@ class FakeRun:
             raise GenmojoError("value", "the clip is odd", "clip", "take another")
         if self.fault == "memory":
             raise MemoryError
+        if self.fault == "allocate":
+            fill_memory()
         if self.fault == "segfault":
             ctypes.string_at(0)
         if self.fault == "exit":
@@ -128,6 +130,18 @@ class FakeRun:
             time.sleep(0.3)  # for the message to leave
             ctypes.PyDLL(None).sleep(7)  # holds the interpreter, as a compiler does
             self.host.announce("loaded", "", 0.0)
+
+
+def fill_memory() -> None:
+    """Allocate until the system refuses: it is told to give this process 40 MB more and nothing beyond."""
+    import resource
+
+    pages = int(Path("/proc/self/statm").read_text().split()[0])
+    most = pages * resource.getpagesize() + (40 << 20)
+    resource.setrlimit(resource.RLIMIT_AS, (most, most))
+    held = []
+    while True:
+        held.append(np.ones(2 << 20))
 
 
 class FakeJob:
