@@ -36,7 +36,9 @@ class LiveView(SceneView):
         self._pending: SceneSnapshot | None = None
         self._sets: tuple[TrackSet, ...] = ()
         self._selected: tuple[str, int] | None = None
-        self._nothing = dim(tr("No scene yet. Start a run (F5), or open a scene file."))
+        self._nothing = dim(
+            f'<span style="color: #b9bfc8">{tr("No scene yet. Start a run (F5), or open a scene file.")}</span>'
+        )
         self._nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
         layout = QVBoxLayout(self)
         layout.addWidget(self._nothing)

@@ -66,13 +66,6 @@ class ViewPanel(QWidget):
         self.canonical = QCheckBox(tr("Without motion"))
         form.addRow(tr("Splat size"), self.splat_scale)
         form.addRow(self.background, self.canonical)
-        directions = QGridLayout()
-        directions.setSpacing(4)
-        for i, (name, text, key) in enumerate(VIEWS):
-            button = QPushButton(tr(text))
-            button.setToolTip(f"{tr(text)} ({key})")
-            button.clicked.connect(lambda _=False, name=name: actions.trigger(f"view.{name}"))
-            directions.addWidget(button, i // 3, i % 3)
         copy, paste = QPushButton(tr("Copy")), QPushButton(tr("Paste"))
         copy.setToolTip(tr("Copies these numbers as text"))
         copy.clicked.connect(lambda: QGuiApplication.clipboard().setText(self._orbit.text()))
@@ -82,7 +75,7 @@ class ViewPanel(QWidget):
         layout.addLayout(form)
         layout.addWidget(self.map)
         layout.addWidget(self.badge)
-        layout.addLayout(directions)
+        layout.addLayout(_directions(actions))
         layout.addLayout(row(copy, paste))
         layout.addStretch()
         self.splat_scale.valueChanged.connect(self._scale)
@@ -132,6 +125,18 @@ class ViewPanel(QWidget):
         self.splat_scale.blockSignals(False)
         self.background.setChecked(look.show_background)
         self.canonical.setChecked(look.canonical)
+
+
+def _directions(actions: ActionTable) -> QGridLayout:
+    """A button for every named direction."""
+    directions = QGridLayout()
+    directions.setSpacing(4)
+    for i, (name, text, key) in enumerate(VIEWS):
+        button = QPushButton(tr(text))
+        button.setToolTip(f"{tr(text)} ({key})")
+        button.clicked.connect(lambda _=False, name=name: actions.trigger(f"view.{name}"))
+        directions.addWidget(button, i // 3, i % 3)
+    return directions
 
 
 def judged(orbit: Orbit, supervised: np.ndarray) -> tuple[str, str]:

@@ -1,10 +1,10 @@
-"""What watching costs a run: CPU and wall time per step with previews and without, in one run, turn by turn.
+"""What watching costs a run: CPU and wall time per step of a plain `Run`, of a worker, and with previews.
 
-    python tests/benchmarks/worker_overhead.py CLIP [--turns 6] [--steps 20] [--frames 0:12]
+    python tests/benchmarks/worker_overhead.py CLIP [--turns 30] [--steps 6] [--frames 0:12]
 
-The optimiser is pinned to the first core, this process (the window's part) to the second. Every turn takes some steps
-with the view off and as many with it live (previews read here); medians over the turns. Then the same steps in a plain
-`Run` without a worker, for the cost of the worker itself. Goals: 1.03 for both ratios.
+Two optimisers of the same clip, a plain `Run` and a worker, lie on the first core and take turns of some steps each, so
+that only one of them works at a time and slow drift of the machine cancels; this process (the window's part) is on the
+second core. Ratios are medians over turns of neighbours, with a bootstrap interval of 95 %. Goals: 1.03 for each.
 """
 
 from __future__ import annotations
@@ -19,6 +19,8 @@ import tempfile
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 
@@ -29,16 +31,22 @@ PLAIN = """
 import json, sys
 from genmojo_studio.worker import preparing
 from genmojo_studio.worker.protocol import RunRequest
-request, first, last = RunRequest.from_json(json.loads(sys.argv[1])), int(sys.argv[2]), int(sys.argv[3])
+request = RunRequest.from_json(json.loads(sys.argv[1]))
 clip, plan, config = preparing.prepare(request, lambda *a: None, lambda: False)
 preparing.load_and_compile(config, lambda *a: None).join()
-run, marks = preparing.build(clip, plan, config, request), {}
+run, mark, begin, wanted = preparing.build(clip, plan, config, request), None, 18, 20
 for event in run:
-    if type(event).__name__ == "Step":
-        marks[run.steps_done] = (event.seconds, event.cpu_seconds)
-        if run.steps_done >= last:
+    if type(event).__name__ != "Step":
+        continue
+    if run.steps_done == begin:
+        mark = (event.seconds, event.cpu_seconds)
+    if run.steps_done == wanted:
+        print(json.dumps([b - a for a, b in zip(mark, (event.seconds, event.cpu_seconds))]), flush=True)
+        line = sys.stdin.readline()
+        if not line:
             break
-print(json.dumps([(b - a) / (last - first) for a, b in zip(marks[first], marks[last])]))
+        begin = run.steps_done + 2  # the first ones after a rest find cold caches; the worker's are left out too
+        wanted = begin + int(line)
 """
 
 
@@ -58,45 +66,74 @@ def turn(window: Watched, cadence: str, steps: int) -> tuple[float, float]:
     return tuple((end[name] - begin[name]) / steps for name in ("seconds", "cpu_seconds"))
 
 
+class Plain:
+    """A run without a worker, in a process of its own, that takes steps when asked."""
+
+    def __init__(self, request: RunRequest) -> None:
+        command = [sys.executable, "-c", PLAIN, json.dumps(request.to_json())]
+        self.process = subprocess.Popen(command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.process.stdout.readline()
+
+    def turn(self, steps: int) -> tuple[float, float]:
+        """Wall and CPU seconds per step of the next steps."""
+        self.process.stdin.write(f"{steps}\n")
+        self.process.stdin.flush()
+        wall, cpu = json.loads(self.process.stdout.readline())
+        return wall / steps, cpu / steps
+
+
+def compared(rows: dict[str, list[tuple[float, float]]], one: str, other: str) -> dict[str, dict[str, float]]:
+    """Median of `one` / `other` over the turns, wall and CPU, each with a bootstrap interval of 95 %."""
+    found = {}
+    for i, kind in enumerate(("wall", "cpu")):
+        ratios = np.array([a[i] / b[i] for a, b in zip(rows[one], rows[other], strict=True)])
+        drawn = np.random.default_rng(0).choice(ratios, (2000, len(ratios)))
+        low, high = np.percentile(np.median(drawn, axis=1), (2.5, 97.5))
+        found[kind] = {"ratio": float(np.median(ratios)), "low": float(low), "high": float(high)}
+    return found
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("clip")
-    parser.add_argument("--turns", type=int, default=6)
-    parser.add_argument("--steps", type=int, default=20)
+    parser.add_argument("--turns", type=int, default=30)
+    parser.add_argument("--steps", type=int, default=6)
     parser.add_argument("--frames", default="0:12")
     args = parser.parse_args()
     first, end = map(int, args.frames.split(":"))
     changes = {"joint_steps": 100_000, "budget_seconds": 1e6, "lift_steps": 10, "densify_every": 1_000_000}
-    pin(0, 1)
     with tempfile.TemporaryDirectory() as folder:
         os.environ["GENMOJO_RUNS"] = folder
         request = RunRequest(args.clip, str(Path(folder) / "run"), "draft", changes, frames=(first, end), cadence="off")
-        Path(request.run_dir).mkdir()
-        rows = {"off": [], "live": []}
+        alone = replace(request, run_dir=str(Path(folder) / "plain"))
+        for each in (request, alone):
+            Path(each.run_dir).mkdir()
+        rows: dict[str, list[tuple[float, float]]] = {"plain": [], "off": [], "live": []}
         with watched(None) as window:
-            pin(0, 0)  # a worker begins on its parent's cores, with all threads it will ever have
+            pin(0, 0)  # both begin on this process's core, with all threads they will ever have
+            plain = Plain(alone)
             window.client.start(request)
             pin(0, 1)
             window.until(lambda: window.steps() >= 20, 600)
+            window.answer(window.client.pause(), 60)
             for i in range(args.turns):
-                for cadence in list(rows) if i % 2 == 0 else list(rows)[::-1]:  # so that slow drift cancels
-                    rows[cadence].append(turn(window, cadence, args.steps))
-            previews = len(window.snapshots)
-            beat = window.client.beat
+                for name in list(rows)[i % 3 :] + list(rows)[: i % 3]:
+                    if name == "plain":
+                        rows[name].append(plain.turn(args.steps))
+                        continue
+                    window.answer(window.client.resume(), 60)
+                    rows[name].append(turn(window, name, args.steps))
+                    window.answer(window.client.pause(), 60)
+            plain.process.stdin.close()
+            plain.process.wait(60)
             window.answer(window.client.stop(keep=False), 60)
-        plain_request = replace(request, run_dir=str(Path(folder) / "plain"))
-        Path(plain_request.run_dir).mkdir()
-        pin(0, 0)
-        command = [sys.executable, "-c", PLAIN, json.dumps(plain_request.to_json()), "22", str(22 + 2 * args.steps)]
-        plain = json.loads(subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout)
-    median = {c: [statistics.median(row[i] for row in rows[c]) for i in (0, 1)] for c in rows}
     result = {
-        "steps_per_turn": args.steps, "turns": args.turns, "previews": previews, "view": beat["view"],
-        "live_over_off": {"wall": median["live"][0] / median["off"][0], "cpu": median["live"][1] / median["off"][1]},
-        "off_over_plain": {"wall": median["off"][0] / plain[0], "cpu": median["off"][1] / plain[1]},
-        "ms_per_step": {"off": 1e3 * median["off"][1], "live": 1e3 * median["live"][1], "plain": 1e3 * plain[1]},
+        "live_over_off": compared(rows, "live", "off"), "off_over_plain": compared(rows, "off", "plain"),
+        "live_over_plain": compared(rows, "live", "plain"), "turns": args.turns, "previews": len(window.snapshots),
+        "ms_per_step": {name: 1e3 * statistics.median(row[1] for row in found) for name, found in rows.items()},
+        "load": os.getloadavg()[0],
     }  # fmt: skip
-    print(json.dumps(result, indent=1))
+    print(json.dumps(result))
 
 
 if __name__ == "__main__":

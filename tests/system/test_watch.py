@@ -27,7 +27,7 @@ def test_a_person_gets_from_the_demo_to_a_turntable(tmp_path, integration):
         "QT_XCB_GL_INTEGRATION": integration,
         **{name: str(tmp_path / name) for name in ("XDG_CONFIG_HOME", "XDG_DATA_HOME", "GENMOJO_RUNS")},
     }
-    command = ["xvfb-run", "-a", "-s", "-screen 0 1920x1080x24", sys.executable, str(_SCRIPT), str(folder)]
+    command = ["xvfb-run", "-a", "-s", "-screen 0 1920x1080x24", sys.executable, str(_SCRIPT), str(folder), "job"]
     run = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=880)
     assert run.returncode == 0, run.stderr[-3000:]
     figures = json.loads(run.stdout.strip().splitlines()[-1])

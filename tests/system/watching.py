@@ -1,6 +1,9 @@
 """Drives the real window through a whole job; started by test_watch.py in a process of its own.
 
-python tests/system/watching.py FOLDER      # screenshots and exports go there; the last line printed is JSON
+python tests/system/watching.py FOLDER [job | stalls SECONDS]
+
+`job`: demo clip, run, views, exports, with screenshots and exports in FOLDER. `stalls`: a run that is watched and played
+with for so long: views, frames, panels out and back, workspaces, themes. The last line printed is JSON.
 """
 
 import json
@@ -59,6 +62,14 @@ class Drive:
 
 def main():
     drive = Drive(sys.argv[1])
+    what, *more = sys.argv[2:] or ["job"]
+    figures = _job(drive) if what == "job" else _play(drive, float(more[0]))
+    drive.window.close()
+    (drive.folder / f"{what}.json").write_text(json.dumps(figures))
+    print(json.dumps(figures))
+
+
+def _job(drive):
     window = drive.window
     drive.shot("start")
     QTest.mouseClick(window.welcome.demo_button, Qt.MouseButton.LeftButton)
@@ -70,9 +81,51 @@ def main():
     figures |= _exports(drive, watch)
     figures["torch"] = "torch" in sys.modules
     figures["stalls"] = sorted((round(busy) for _, busy in window.watchdog.stalls), reverse=True)[:5]
-    window.close()
-    (drive.folder / "figures.json").write_text(json.dumps(figures))
-    print(json.dumps(figures))
+    return figures
+
+
+def _play(drive, seconds):
+    """Something else every second while the optimiser works."""
+    window = drive.window
+    QTest.mouseClick(window.welcome.demo_button, Qt.MouseButton.LeftButton)
+    drive.wait(lambda: window.state.clip is not None, 60, "the demo clip")
+    watch = window.workspaces["watch"]
+    drive.wait(lambda: watch.setup.effects.rows, 120, "the effects")
+    window.show_workspace("annotate")  # opened once: reading its clip is not part of the play
+    drive.rest(5)
+    window.show_workspace("watch")
+    watch.setup.budget.setValue(seconds + 120)
+    QTest.mouseClick(watch.setup.start_button, Qt.MouseButton.LeftButton)
+    drive.wait(lambda: len(watch.control.log.step) > 3, 240, "steps")
+    window.watchdog.reset()
+    begun, done = time.monotonic(), 0
+    docks = list(watch.docks.values())
+    plays = [
+        *(lambda name=name: drive.do(f"view.{name}") for name in ("right_30", "above_30", "back", "input")),
+        *(lambda name=name: drive.do(f"compare.{name}") for name in ("wipe", "difference", "scene", "side")),
+        *(lambda name=name: drive.do(f"mode.{name}") for name in ("depth", "flow", "residual", "ellipsoids", "rgb")),
+        *(lambda dock=dock: dock.setFloating(not dock.isFloating()) for dock in docks for _ in range(2)),
+        *(lambda name=name: window.show_workspace(name) for name in ("annotate", "watch")),
+        *(lambda: drive.do("window.theme"),) * 2,
+        *(lambda dock=dock: dock.raise_() for dock in docks),
+        *(lambda at=at: window.state.set(frame=at) for at in (3, 17, 9)),
+        lambda: QTest.mouseClick(watch.view, Qt.MouseButton.LeftButton, pos=watch.view.rect().center()),
+        *(lambda: drive.do("time.play"),) * 2,
+    ]
+    slow = {}
+    while time.monotonic() < begun + seconds:
+        seen = len(window.watchdog.stalls)
+        plays[done % len(plays)]()
+        drive.rest(1.0)
+        for stall in window.watchdog.stalls[seen:]:
+            slow.setdefault(str(done % len(plays)), []).append([round(value) for value in stall])
+        done += 1
+    found = sorted(window.watchdog.stalls, reverse=True)
+    figures = {"stalls": [round(late) for late, _ in found], "busy": sorted((round(b) for _, b in found), reverse=True)}
+    figures |= {"seconds": time.monotonic() - begun, "steps": len(watch.control.log.step), "done": done, "slow": slow}
+    drive.do("run.stop_keep")
+    drive.wait(lambda: watch.session.scene is not None, 120, "the scene that was kept")
+    return figures
 
 
 def _run(drive, watch):
