@@ -2,8 +2,8 @@
 
 python tests/system/watching.py FOLDER [job | stalls SECONDS]
 
-`job`: demo clip, run, views, exports, with screenshots and exports in FOLDER. `stalls`: a run that is watched and played
-with for so long: views, frames, panels out and back, workspaces, themes. The last line printed is JSON.
+`job`: demo clip, run, views, exports, with screenshots and exports in FOLDER. `stalls`: a run that is watched and
+played with for so long: views, frames, panels out and back, workspaces, themes. The last line printed is JSON.
 """
 
 import json
