@@ -32,6 +32,7 @@ from genmojo_core.events import (
     Warned,
 )
 from genmojo_core.optimise import checkpoint, density, parameters
+from genmojo_core.optimise.absences import out_of_view
 from genmojo_core.optimise.annotated import with_annotated
 from genmojo_core.optimise.bake import Provenance, bake
 from genmojo_core.optimise.deadline import Deadline
@@ -205,7 +206,7 @@ class Run:
         motions, doubts = usable_motion(self.clip, motions)
         for message in doubts:
             yield Warned(*self.clock.now(), "motion_not_found", message)
-        motions = with_annotated(self.clip, motions)
+        motions = with_annotated(self.clip, out_of_view(self.clip, motions))
         lifted = lift(self.clip, self.plan, self.config, motions)
         for message in lifted.warnings:
             yield Warned(*self.clock.now(), "object_not_visible", message)
