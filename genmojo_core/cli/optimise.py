@@ -176,7 +176,7 @@ def _prepare(args: argparse.Namespace, config: RunConfig) -> tuple[Clip, EffectP
     external = models.models_of(args)
     with progress("reading") as tell:
         clip = folders.read(args.clip, frames=args.frames, short_side=config.short_side, ignore=args.ignore,
-                            pixel_aspect=args.pixel_aspect)  # fmt: skip
+                            pixel_aspect=args.pixel_aspect, tracks=args.tracks)  # fmt: skip
         clip = mask_file.with_masks(clip, args.masks) if args.masks else clip
         tell(1.0)
     with progress("looking at the clip") as tell:

@@ -26,6 +26,7 @@ def read(
     short_side: int | None = None,
     ignore: Collection[str] = (),
     pixel_aspect: float | None = None,
+    tracks: str | Path | None = None,
 ) -> Clip:
     """A clip with every channel that lies beside it.
 
@@ -37,6 +38,7 @@ def read(
         ignore: channels to leave out, of `CHANNELS`.
         pixel_aspect: width / height of one source pixel as shown; by default meta.json's `pixel_aspect`, then the
             video's own, then 1.
+        tracks: npz of point tracks to take instead of the clip's own tracks.npz.
 
     Returns:
         A Clip whose channels are None where nothing is given. Frames without a frame rate get 24 per second.
@@ -64,10 +66,14 @@ def read(
         guesses=read_in.notes,
     )
     clip = _with_masks(clip, layout, read_in, about)
-    if layout.root is None:
-        return clip
     ids = clip.object_ids if clip.objects else list(about.names)
-    return _with_channels(clip, layout.root, read_in, int(ids[0]) if len(ids) == 1 else 0, frozenset(ignore))
+    only_object = int(ids[0]) if len(ids) == 1 else 0
+    if layout.root is not None:
+        left_out = frozenset(ignore) | (frozenset() if tracks is None else {"tracks"})
+        clip = _with_channels(clip, layout.root, read_in, only_object, left_out)
+    if tracks is not None:
+        clip = replace(clip, tracks=given_tracks.read(Path(tracks), read_in, only_object))
+    return clip
 
 
 def _check_arguments(short_side: int | None, ignore: Collection[str]) -> None:

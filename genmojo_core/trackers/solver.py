@@ -19,7 +19,7 @@ from genmojo_core.trackers.evidence import evidence_of
 from genmojo_core.trackers.object_motion import ObjectMotion
 from genmojo_core.trackers.segment_solver import SPANS, solve_points
 from genmojo_core.trackers.stabilise import Layer, flat_shade
-from genmojo_core.trackers.visibility import states_of
+from genmojo_core.trackers.visibility import state_in, states_of
 from genmojo_core.tracks import keys
 from genmojo_core.tracks.annotation import CONFIRMED, KEY, TRACKER, Annotation, Cells
 from genmojo_core.tracks.edits import Edit, join
@@ -116,6 +116,24 @@ class TrackSolver:
             rows = rows if relinked else [row]
         xy[rows] = solve_points(motion, xy[rows], fixed[rows], first, end)
         return SolveAnswer(request, self._cells(motion, request, xy, fixed, (rows, first, end)))
+
+    def follow(self, request: SolveRequest, t: int) -> SolveAnswer:
+        """The point of the request's key in one other frame t, by the match of these two frames alone.
+
+        Nothing is found where the object is not seen in either.
+        """
+        if request.key is None or request.key[0] not in request.tracks:
+            return SolveAnswer(request, {})
+        motion, (track, s) = self._motion(request.object_id), request.key
+        cells = request.cells[request.tracks.index(track)]
+        carried = motion.carry(s, t, cells.xy[s : s + 1].astype(np.float64) * self.scale)
+        if carried is None:
+            return SolveAnswer(request, {})
+        place, conf = carried[0], carried[1].astype(np.float32)
+        state = np.array([state_in(motion, t, place[0], self._clip.size)], np.uint8)
+        none, source = np.zeros(1, np.uint8), np.full(1, TRACKER, np.uint8)
+        found = Cells((place / self.scale).astype(np.float32), state, none, source, conf, none)
+        return SolveAnswer(request, {track: (np.array([t]), found)})
 
     def evidence(self, request: SolveRequest) -> dict[int, Evidence]:
         """What the pictures say about the request's tracks as they stand, for `suspicion.assess`."""

@@ -21,14 +21,19 @@ def states_of(
     A point on its object's visible mask counts as seen: that links lose it says little (measured on clips with truth,
     they would be wrong four times as often as right). The confidence is the share of links that agree with the place.
     """
-    outside = ((xy < 0) | (xy > np.array(size))).any(axis=1)
-    frames = range(motion.frames)
-    seen = np.array([sample(motion.layer.mask[t].astype(np.float32), xy[t] + _AROUND).max() > 0.5 for t in frames])
-    state = np.where(outside, OUT_OF_VIEW, np.where(seen, VISIBLE, OCCLUDED)).astype(np.uint8)
+    state = np.array([state_in(motion, t, xy[t], size) for t in range(motion.frames)], np.uint8)
     said = ((cells.flags & (KEY | PAINTED | CONFIRMED)) > 0) & (cells.state != NONE)
     state[said] = cells.state[said]
     sure = (cells.flags & KEY) > 0
     return state, np.where(sure, 1.0, agreement(motion, xy)).astype(np.float32)
+
+
+def state_in(motion: ObjectMotion, t: int, xy: np.ndarray, size: tuple[int, int]) -> int:
+    """State in frame t of a point at held px (2,), by the masks and the picture's border alone."""
+    if ((xy < 0) | (xy > np.array(size))).any():
+        return OUT_OF_VIEW
+    on_mask = sample(motion.layer.mask[t].astype(np.float32), xy + _AROUND).max() > 0.5
+    return VISIBLE if on_mask else OCCLUDED
 
 
 def agreement(motion: ObjectMotion, xy: np.ndarray) -> np.ndarray:  # (T, 2) -> (T,) 0..1

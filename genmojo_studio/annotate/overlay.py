@@ -23,6 +23,7 @@ from genmojo_studio.annotate.mapping import Mapping
 
 DETAILED = 25  # marks with glyph and trail where there are more than MANY tracks
 MANY = 64
+FLYING = 800  # dots that are drawn while frames fly by
 RADIUS = 6.0
 _DARK = QColor(12, 14, 18)
 
@@ -80,7 +81,8 @@ def contours_of(labels: np.ndarray, places: dict[int, int]) -> dict[int, tuple[i
 def draw(painter: QPainter, picture: Picture, mapping: Mapping, view: QRectF, *, fine: bool = True) -> None:
     """Draw everything; `view` is the visible part of the widget.
 
-    Without `fine` outlines and trails are drawn without smoothing, which costs a third: for frames that fly by.
+    Without `fine` outlines and trails are drawn without smoothing, which costs a third, and of thousands of dots only
+    FLYING: for frames that fly by.
     """
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, on=fine)
     if picture.mask_mode:
@@ -88,7 +90,7 @@ def draw(painter: QPainter, picture: Picture, mapping: Mapping, view: QRectF, *,
     _trails(painter, picture, mapping, fine=fine)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, on=True)
     if len(picture.dots):
-        _dots(painter, picture.dots, mapping)
+        _dots(painter, picture.dots if fine else picture.dots[:: max(1, len(picture.dots) // FLYING)], mapping)
     for mark in picture.marks:
         if mark.state == NONE:
             continue

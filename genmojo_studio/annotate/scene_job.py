@@ -5,27 +5,34 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+import numpy as np
 from PySide6.QtCore import QElapsedTimer, QObject, QProcess, QTimer, Signal
 
+from genmojo_core.tracks.annotation import CONFIRMED, KEY, Annotation
+from genmojo_core.tracks.model import NONE, PointTracks
 from genmojo_studio.translate import tr
 
 _MARGIN = 1.15  # reading, writing and the first estimates come on top of the budget
 
 
 class SceneJob(QObject):
-    """One optimisation with a budget of seconds, which makes its end foreseeable."""
+    """One optimisation with a budget of seconds, which makes its end foreseeable; `tracks` is an npz to follow."""
 
     progressed = Signal(float)  # 0..1 of the forecast
     finished = Signal(str)  # path of the scene
     failed = Signal(str)  # a sentence
 
-    def __init__(self, clip: Path, output: Path, seconds: float, parent: QObject | None = None) -> None:
+    def __init__(
+        self, clip: Path, output: Path, seconds: float, tracks: Path | None = None, parent: QObject | None = None
+    ) -> None:
         super().__init__(parent)
         self._output, self._seconds = output, seconds
         self._process = QProcess(self)
         self._process.setProgram(sys.executable)
+        follow = [] if tracks is None else ["--tracks", str(tracks)]
         self._process.setArguments(["-m", "genmojo_core.cli.main", "optimize", str(clip), "-o", str(output), "--preset",
-                                    "draft", "--budget", f"{seconds:.0f}s", "--run-dir", f"{output}.run"])  # fmt: skip
+                                    "draft", "--budget", f"{seconds:.0f}s", "--run-dir", f"{output}.run",
+                                    *follow])  # fmt: skip
         self._process.finished.connect(self._ended)
         self._process.errorOccurred.connect(self._error)
         self._clock = QElapsedTimer()
@@ -67,6 +74,18 @@ class SceneJob(QObject):
         if error == QProcess.ProcessError.FailedToStart and not self._cancelled:
             self._tick.stop()
             self.failed.emit(tr("The optimisation could not be started."))
+
+
+def said_by_people(annotation: Annotation) -> PointTracks | None:
+    """What people placed or accepted, source pixels; state NONE wherever nobody spoke. None without any of it."""
+    ids = [track for track in annotation.tracks if len(annotation.keys(track))]
+    if not ids:
+        return None
+    cells = [annotation.track(track) for track in ids]
+    sure = np.stack([(c.flags & (KEY | CONFIRMED)) > 0 for c in cells])
+    state = np.where(sure, np.stack([c.state for c in cells]), NONE).astype(np.uint8)
+    owners = np.array([annotation.tracks[track].object for track in ids], np.int64)
+    return PointTracks(np.stack([c.xy for c in cells]).astype(np.float32), state, owners, annotation.size)
 
 
 def forecast(seconds: float) -> float:

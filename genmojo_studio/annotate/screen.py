@@ -74,6 +74,7 @@ class Screen(QObject):
         if self._canvas.loupe.on:
             self._feed_loupe()
         self._canvas.show_frame(picture, self.presenter.picture(frame))
+        self._strip.show_frame()  # with the frame, not before it: until then its painting would only delay decoding
 
     def _arrived(self, frame: int, _generation: int) -> None:
         if frame == self._session.frame:

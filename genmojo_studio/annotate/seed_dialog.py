@@ -27,8 +27,9 @@ from PySide6.QtWidgets import (
 )
 
 from genmojo_core.errors import GenmojoError
+from genmojo_core.store.npz import write_tracks
 from genmojo_core.trackers import seeding
-from genmojo_studio.annotate.scene_job import SceneJob, forecast
+from genmojo_studio.annotate.scene_job import SceneJob, forecast, said_by_people
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.work import Work
 from genmojo_studio.settings import Settings
@@ -104,8 +105,8 @@ class SeedDialog(QDialog):
         return [
             (tr("Optical (built in)"), tr("Follows the points inside their masks by flow and matching, from both ends "
              "between your keys."), QWidget),
-            (tr("Solve from scene"), tr("Optimises a 4D scene of this clip and takes its tracks, which go on behind "
-             "what hides them."), self._scene_options),
+            (tr("Solve from scene"), tr("Optimises a 4D scene that follows what you placed so far and takes its "
+             "tracks, which go on behind what hides them."), self._scene_options),
             (tr("CoTracker (yours)"), tr("A checkout and weights that you have. CC BY-NC 4.0: no commercial use. It "
              "runs in a process of its own."), self._cotracker_options),
             (tr("From a file"), tr("Tracks of this clip that somebody made before: TAP-Vid, CoTracker or ours (npz)."),
@@ -196,7 +197,12 @@ class SeedDialog(QDialog):
     def _optimise(self) -> bool:
         output = self._session.project.path.with_suffix(".scene.h5")
         seconds = 60.0 * float(self.minutes.currentData())
-        self._job = SceneJob(Path(self._session.project.info.path), output, seconds, self)
+        said = said_by_people(self._session.annotation)
+        tracks = output.with_suffix(".tracks.npz")
+        if said is not None:
+            write_tracks(said, tracks)
+        clip = Path(self._session.project.info.path)
+        self._job = SceneJob(clip, output, seconds, tracks if said is not None else None, self)
         self._job.progressed.connect(self._progressed)
         self._job.finished.connect(self._scene_ready)
         self._job.failed.connect(self._failed)

@@ -29,7 +29,6 @@ class Strip(QWidget):
         self.setMinimumHeight(48)
         self.setAccessibleName(tr("Stabilised strip of the active point"))
         session.shown.connect(self._changed)
-        session.frame_changed.connect(self._changed)
         session.cache.filled.connect(self._filled)
 
     def sizeHint(self) -> QSize:
@@ -97,7 +96,11 @@ class Strip(QWidget):
     def _left(self) -> float:
         return (self.width() - self._side() * (2 * REACH + 1)) / 2
 
-    def _changed(self, _what: object = None) -> None:
+    def show_frame(self) -> None:
+        """Another frame is on show."""
+        self._changed()
+
+    def _changed(self) -> None:
         if self.isVisible():
             self.update()
 

@@ -21,6 +21,7 @@ from genmojo_core.trackers.solver import SolveAnswer, SolveRequest, TrackSolver
 from genmojo_core.tracks import keys, suspicion
 from genmojo_core.tracks.annotation import KEY, TRACKER, Annotation, Cells, Proposal
 from genmojo_core.tracks.edits import join
+from genmojo_core.tracks.model import NONE
 from genmojo_core.tracks.suspicion import Calibration, Evidence, Spot, Suspicion
 from genmojo_studio import notify
 from genmojo_studio.annotate.session import Session
@@ -181,16 +182,29 @@ class Tracking(QObject):
         self._ask(SolveRequest.of(session.annotation, info.object, (track, frame)), _Key(track, frame, None), span)
 
     def one(self, direction: int) -> None:
-        """Take the active point one frame on or back, and go there."""
-        session, track = self._session, self._session.track
-        there = session.frame + direction
-        if track is None or not 0 <= there < session.annotation.frames:
+        """Match the active point from this frame to the next or the one before, and go there.
+
+        What a person placed, accepted or painted there stays.
+        """
+        session, track, annotation = self._session, self._session.track, self._session.annotation
+        frame, there = session.frame, session.frame + direction
+        if track is None or not 0 <= there < annotation.frames:
             return
-        if session.annotation.at(there).ids.tolist().count(track) == 0:
-            xy = session.annotation.track(track).xy[session.frame]
-            found = keys.set_state(session.annotation, track, there, there, 1)
-            session.do(found)
-            session.said.emit(tr("Carried on from x {x:.1f}, y {y:.1f}.").format(x=xy[0], y=xy[1]))
+        cells = annotation.track(track).copy()
+        if cells.state[frame] == NONE:
+            session.said.emit(tr("Place this point first."))
+            return
+        clip = self._clip_with_masks()
+        if clip is None:
+            return
+        request = SolveRequest(annotation.tracks[track].object, annotation.size, (track,), (cells,), (track, frame))
+
+        def followed(answer: SolveAnswer) -> None:
+            self._answered(answer, _Key(track, frame, None), None)
+            if not answer.found:
+                session.said.emit(tr("The object is not seen in both frames; the point stays where it is."))
+
+        self.tasks.run(lambda: self._solver_for(clip).follow(request, there), followed, self._failed)
         session.go(there)
 
     def _ask(self, request: SolveRequest, key: _Key, span: tuple[int, int] | None = None) -> None:

@@ -1,6 +1,10 @@
 """A scripted annotator at the real widgets: mouse and keys only, through all four steps, at 1920 x 1080.
 
-    python tests/acceptance/annotator_driver.py ../shared/data/blender-cross [folder for screenshots]
+    python tests/acceptance/annotator_driver.py CLIP [--scene scene.h5] [--shots DIR]
+
+Prints one JSON object: keys per track, errors in pixels of 1920 x 1080, states, seconds. With `--scene` the seeds come
+from that scene through the seed dialog, without from the built-in tracker. A clip without truth.npz is only walked
+through: points on corners, seeds, every frame accepted, the queue visited; its keys are the clicks that place points.
 
 Rules as in tests/simulated_annotator.py: it sees the frames that a person visits (every second, then the queue),
 corrects a point that is off by more than 3 px as seen, clicks with 1 px noise; every click, drag and state stroke is a
@@ -9,6 +13,8 @@ key, Enter and choosing a point are not. It reads the truth only for what a pers
 
 from __future__ import annotations
 
+import argparse
+import json
 import sys
 import tempfile
 import time
@@ -19,11 +25,12 @@ import numpy as np
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
+from shiboken6 import isValid
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
-from simulated_annotator import FULL, NOISE, OFF, Report, truth_of  # noqa: E402
+from simulated_annotator import FULL, NOISE, OFF, Report, most_trackable, truth_of  # noqa: E402
 
 from genmojo_core.clip import images, layouts, png  # noqa: E402
 from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE  # noqa: E402
@@ -60,8 +67,9 @@ def write_full_hd(source: Path, target: Path) -> Path:
 class Hands:
     """Mouse, keys and eyes of the annotator."""
 
-    def __init__(self, clip: Path, truth_folder: Path, shots: Path | None = None) -> None:
-        self.truth, self.shots = truth_of(truth_folder), shots
+    def __init__(self, clip: Path, source: Path, scene: Path | None = None, shots: Path | None = None) -> None:
+        self.truth = truth_of(source) if (source / "truth.npz").exists() else None
+        self.scene, self.shots = scene, shots
         self.rng = np.random.default_rng(0)
         self.state = AppState()
         table = ActionTable([*shell_actions.ACTIONS, *ACTIONS])
@@ -79,10 +87,11 @@ class Hands:
         self.keys: dict[int, int] = {}
         self.strokes: dict[int, int] = {}
         self.seconds: list[float] = []
+        self.enters = 0
 
     def run(self, points: int = 5, stride: int = 2, share: float = 0.2) -> Report:
         """All four steps; the report of what stands at the end."""
-        self.wait(lambda: bool(self.w.objects.figures), 300)
+        self.wait(lambda: bool(self.w.objects.figures), 600)
         self.objects()
         self.points(points)
         self.seed()
@@ -103,23 +112,37 @@ class Hands:
         self.shot("1-objects")
 
     def points(self, count: int) -> None:
-        """Five points per object that are seen on the first frame."""
+        """Five points per object that are seen on the first frame, those that the meter likes best."""
         self.press(self.w.bar.buttons[1])
         for info in self.s.objects():
-            rows = np.flatnonzero((self.truth.object == info.id) & self.truth.visible[:, 0])[:count]
-            for number, row in enumerate(rows):
+            for number, (row, place) in enumerate(self.choices(info.id)[:count]):
                 self.s.select(info.id, number + 1)
-                self.click_at(*self.aim(int(row), 0))
+                self.click_at(*place)
                 track = self.s.track_of(info.id, number + 1)
-                self.row[track], self.keys[track], self.strokes[track] = int(row), 1, 0
+                self.row[track], self.keys[track], self.strokes[track] = row, 1, 0
         self.shot("2-points")
 
+    def choices(self, object_id: int) -> list[tuple[int, tuple[float, float]]]:
+        """Rows of the truth (-1: none) and places to click, the most trackable first."""
+        if self.truth is not None:
+            rows = most_trackable(self.s.clip, self.truth, object_id).tolist()
+            return [(row, self.aim(row, 0)) for row in rows]
+        frame, labels = self.s.cache.read(0), self.s.mask_at(0)
+        inside = cv2.erode((labels == object_id).astype(np.uint8), np.ones((9, 9), np.uint8))
+        corners = cv2.goodFeaturesToTrack(cv2.cvtColor(frame, cv2.COLOR_BGRA2GRAY), 5, 0.01, 12, mask=inside)
+        found = [] if corners is None else corners[:, 0] + 0.5
+        return [(-1, (float(x), float(y))) for x, y in found]
+
     def seed(self) -> None:
-        """The dialog, with what it offers first."""
+        """The dialog, with what it offers first, or with a scene."""
         self.w.table.trigger("annotate.track.seed")
         dialog = next(d for d in self.w.findChildren(SeedDialog) if d.isVisible())
+        if self.scene is not None:
+            dialog.choose("scene")
+            dialog.scene.line.setText(str(self.scene))
         self.press(dialog.start)
-        self.wait(lambda: all((self.s.annotation.track(t).state != NONE).all() for t in self.row), 900)
+        self.wait(lambda: not isValid(dialog), 1800)  # it deletes itself when it is done
+        self.wait(lambda: all((self.s.annotation.track(t).state != NONE).all() for t in self.row), 10)
         self.idle()
 
     def refine(self, stride: int) -> None:
@@ -135,6 +158,7 @@ class Hands:
                 self.shot("3-refine")
             for _ in range(3 * len(self.row)):
                 self.key(Qt.Key.Key_Return)
+                self.enters += 1
                 if self.s.frame != frame:
                     break
             if self.s.frame == frame:
@@ -169,6 +193,8 @@ class Hands:
 
     def look_at(self, track: int) -> None:
         """Correct a point of the frame on show if it is seen to be wrong."""
+        if self.truth is None:
+            return
         t, row = self.s.frame, self.row[track]
         cells = self.s.annotation.cells(track, np.array([t]))
         seen = bool(self.truth.visible[row, t])
@@ -261,27 +287,43 @@ class Hands:
     def report(self) -> Report:
         """How good the tracks are now."""
         errors, per_track, right = [], [], []
-        for track, row in self.row.items():
+        for track, row in self.row.items() if self.truth is not None else ():
             cells, seen = self.s.annotation.track(track), self.truth.visible[row]
             error = np.linalg.norm(cells.xy - self.truth.xy[row], axis=1)
             errors.append(error[seen])
             per_track.append(np.median(error[seen]))
             right.append(((cells.state == VISIBLE) == seen).mean())
-        order = list(self.row)
-        keys, strokes = (np.array([found[i] for i in order]) for found in (self.keys, self.strokes))
-        seconds = self.seconds or [0.0]
-        return Report(keys, strokes, np.concatenate(errors), np.array(per_track), float(np.mean(right)), seconds)
+        keys, strokes = (np.array([found[i] for i in self.row]) for found in (self.keys, self.strokes))
+        every = np.concatenate(errors) if errors else np.zeros(0)
+        return Report(keys, strokes, every, np.array(per_track), float(np.mean(right or [0.0])), self.seconds)
 
 
-def drive(folder: Path, shots: Path | None = None) -> Report:
-    """Annotate a sample clip with exact truth at 1920 x 1080 through the widgets."""
+def drive(source: Path, scene: Path | None = None, shots: Path | None = None) -> dict[str, object]:
+    """Annotate a clip at 1920 x 1080 through the widgets; its figures."""
+    began, cpu = time.monotonic(), time.process_time()
     application = QApplication.instance() or QApplication([])
     theme.apply(application, "dark")
     with tempfile.TemporaryDirectory() as name:
-        return Hands(write_full_hd(folder, Path(name) / "clip"), folder, shots).run()
+        hands = Hands(write_full_hd(source, Path(name) / "clip"), source, scene, shots)
+        report = hands.run()
+    figures: dict[str, object] = {
+        "clip": source.name, "seeds": "scene" if scene else "optical", "tracks": len(report.keys),
+        "keys": float(np.median(report.keys)), "keys_per_track": report.keys.tolist(), "enters": hands.enters,
+        "seconds": time.monotonic() - began, "cpu_seconds": time.process_time() - cpu,
+    }  # fmt: skip
+    if len(report.errors):
+        figures |= {"error": float(np.median(report.errors)), "p90": float(np.quantile(report.errors, 0.9)),
+                    "oa": report.right_states, "error_per_track": report.per_track.tolist(),
+                    "solve_seconds": float(np.median(report.solve_seconds))}  # fmt: skip
+    return figures
 
 
 if __name__ == "__main__":
-    began = time.monotonic()
-    made = drive(Path(sys.argv[1]), Path(sys.argv[2]) if len(sys.argv) > 2 else None)
-    sys.stdout.write(f"widgets, optical: {made.line()}, {time.monotonic() - began:.0f} s in all\n")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("clip", type=Path)
+    parser.add_argument("--scene", type=Path)
+    parser.add_argument("--shots", type=Path, help="folder for screenshots of the four steps")
+    args = parser.parse_args()
+    if args.shots:
+        args.shots.mkdir(parents=True, exist_ok=True)
+    sys.stdout.write(json.dumps(drive(args.clip, args.scene, args.shots)) + "\n")

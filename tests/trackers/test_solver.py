@@ -149,3 +149,24 @@ def test_what_cannot_be_seeded_is_said(made: tuple, tmp_path) -> None:
     asked = seeding.Queries(np.array([99]), np.zeros((1, 2)), np.array([1]))
     with pytest.raises(GenmojoError, match="frame 99"):
         seeding.make("optical").seed(clip, asked)
+
+
+def test_one_frame_is_matched_to_the_pixels_and_keys_there_stay(made: tuple) -> None:
+    clip, truth, solver = made
+    annotation, rows = begun(clip, truth)
+    errors = []
+    for track, row in rows.items():
+        cells = (annotation.track(track).copy(),)
+        owner = annotation.tracks[track].object
+        answer = solver.follow(SolveRequest(owner, clip.source_size, (track,), cells, (track, 0)), 1)
+        frames, found = answer.found[track]
+        assert frames.tolist() == [1] and found.state[0] == VISIBLE
+        errors.append(np.linalg.norm(found.xy[0] - truth.xy[row, 1]))
+        answer.edit(annotation).do(annotation)
+        assert annotation.track(track).state[2] == NONE, "one frame and no more"
+    assert np.median(errors) < 0.5
+    track = next(iter(rows))
+    keys.set_key(annotation, track, 1, (3.0, 4.0)).do(annotation)
+    request = SolveRequest(annotation.tracks[track].object, clip.source_size, (track,),
+                           (annotation.track(track).copy(),), (track, 0))  # fmt: skip
+    assert not solver.follow(request, 1).edit(annotation).changes

@@ -6,6 +6,7 @@ Not covered here: how good the trackers are (tests/trackers, tests/acceptance/5.
 import sys
 
 import numpy as np
+from annotating import at, choose_all, click, place_points
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
@@ -16,16 +17,6 @@ from genmojo_core.tracks.annotation import KEY, TRACKER, Proposal
 from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE
 
 
-def at(workspace, x, y):
-    """Widget pixel of a raster position."""
-    wx, wy = workspace.canvas.mapping.to_widget(x, y)
-    return QPoint(round(wx), round(wy))
-
-
-def click(workspace, x, y):
-    QTest.mouseClick(workspace.canvas, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, at(workspace, x, y))
-
-
 def drag(workspace, start, end):
     """Press at a raster place, move in three steps, let go."""
     QTest.mousePress(workspace.canvas, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, at(workspace, *start))
@@ -33,28 +24,6 @@ def drag(workspace, start, end):
         x, y = (a + (b - a) * share for a, b in zip(start, end, strict=True))
         QTest.mouseMove(workspace.canvas, at(workspace, x, y))
     QTest.mouseRelease(workspace.canvas, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, at(workspace, *end))
-
-
-def choose_all(workspace):
-    for row in range(workspace.objects.table.rowCount()):
-        workspace.objects.table.selectRow(row)
-        workspace.objects.choose_button.click()
-
-
-def place_points(workspace, each=2):
-    """Step 2 with `each` points per object, on their masks; returns the raster places."""
-    workspace.show_step(1)
-    session = workspace.session
-    labels = session.cache.mask(0)
-    placed = []
-    for info in session.objects():
-        session.select(info.id, 1)
-        rows, columns = np.nonzero(labels == info.id)
-        for share in np.linspace(0.3, 0.7, each):
-            k = int(share * len(rows))
-            placed.append((columns[k] + 0.5, rows[k] + 0.5))
-            click(workspace, *placed[-1])
-    return placed
 
 
 def seed(workspace, qtbot):
@@ -326,3 +295,22 @@ def test_another_clip_takes_the_place_of_the_first_and_nothing_is_lost(workspace
     again = Project.open(first)
     assert again.annotation.digest() == digest
     again.close()
+
+
+def test_tracking_one_frame_matches_the_pixels(workspace, qtbot):
+    """Alt+Right takes the point where the object went, not where it was."""
+    choose_all(workspace)
+    places = place_points(workspace, each=1)
+    workspace.show_step(2)
+    session = workspace.session
+    track, (x, y) = next(iter(session.annotation.tracks)), places[0]
+    session.select_track(track)
+    workspace.canvas.setFocus()
+    QTest.keyClick(workspace.canvas, Qt.Key.Key_Right, Qt.KeyboardModifier.AltModifier)
+    qtbot.waitUntil(lambda: session.annotation.track(track).state[1] != NONE, timeout=60_000)
+    labels = [
+        np.argwhere(session.cache.read(t) is not None and session.cache.mask(t) == session.active[0]) for t in (0, 1)
+    ]
+    moved = (labels[1].mean(axis=0) - labels[0].mean(axis=0))[::-1]
+    assert session.frame == 1 and np.linalg.norm(moved) > 0.5
+    np.testing.assert_allclose(session.annotation.track(track).xy[1] - (x, y), moved, atol=1.5)

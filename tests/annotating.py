@@ -1,0 +1,37 @@
+"""What a person does in the annotator, for tests of its window: clicks, objects chosen, points placed."""
+
+import numpy as np
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+
+
+def at(workspace, x, y):
+    """Widget pixel of a raster position."""
+    wx, wy = workspace.canvas.mapping.to_widget(x, y)
+    return QPoint(round(wx), round(wy))
+
+
+def click(workspace, x, y):
+    QTest.mouseClick(workspace.canvas, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, at(workspace, x, y))
+
+
+def choose_all(workspace):
+    for row in range(workspace.objects.table.rowCount()):
+        workspace.objects.table.selectRow(row)
+        workspace.objects.choose_button.click()
+
+
+def place_points(workspace, each=2):
+    """Step 2 with `each` points per object, on their masks; returns the raster places."""
+    workspace.show_step(1)
+    session = workspace.session
+    labels = session.cache.mask(0)
+    placed = []
+    for info in session.objects():
+        session.select(info.id, 1)
+        rows, columns = np.nonzero(labels == info.id)
+        for share in np.linspace(0.3, 0.7, each):
+            k = int(share * len(rows))
+            placed.append((columns[k] + 0.5, rows[k] + 0.5))
+            click(workspace, *placed[-1])
+    return placed

@@ -1,0 +1,105 @@
+"""The seed dialog end to end: real widgets, real child processes. CoTracker is a stand-in with the real interface.
+
+Not covered: CoTracker itself, how good scenes are (tests/acceptance/5.py).
+"""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from annotating import choose_all, place_points
+from shiboken6 import isValid
+
+from genmojo_core.store.npz import read_tracks
+from genmojo_core.tracks.annotation import KEY
+from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE
+from genmojo_studio.annotate.seed_dialog import SeedDialog
+
+STAND_IN = """
+import torch
+
+class CoTrackerPredictor(torch.nn.Module):
+    def __init__(self, checkpoint="x", offline=True, v2=False, window_len=60):
+        super().__init__()
+        self.speed = torch.load(checkpoint)["speed"]
+
+    def forward(self, video, queries=None, segm_mask=None, grid_size=0, grid_query_frame=0, backward_tracking=False):
+        B, T, C, H, W = video.shape
+        t = torch.arange(T, dtype=torch.float32)[None, :, None, None]
+        tracks = queries[:, None, :, 1:] + (t - queries[:, None, :, :1]) * self.speed
+        return tracks, (t[..., 0] < 5).expand(B, T, queries.shape[1])
+"""
+
+
+@pytest.fixture
+def checkout(tmp_path):
+    pytest.importorskip("torch")
+    package = tmp_path / "checkout" / "cotracker"
+    package.mkdir(parents=True)
+    (package / "__init__.py").write_text("")
+    (package / "predictor.py").write_text(STAND_IN)
+    weights = tmp_path / "scaled_offline.pth"
+    save = "import sys, torch; torch.save({'speed': torch.tensor([0.5, 0.25])}, sys.argv[1])"
+    subprocess.run([sys.executable, "-c", save, str(weights)], check=True)
+    return package.parent, weights
+
+
+def opened(workspace):
+    """The dialog as its key opens it."""
+    workspace.table.trigger("annotate.track.seed")
+    return next(d for d in workspace.findChildren(SeedDialog) if d.isVisible())
+
+
+def test_cotracker_from_the_dialog(workspace, qtbot, checkout):
+    choose_all(workspace)
+    places = place_points(workspace, each=1)
+    dialog, session = opened(workspace), workspace.session
+    dialog.choose("cotracker")
+    dialog.checkout.line.setText(str(checkout[0]))
+    dialog.weights.line.setText(str(checkout[1]))
+    dialog.start.click()
+    assert dialog.isVisible() and "agreed" in dialog.note.text(), "nothing runs before the licence was agreed to"
+    dialog.consent.setChecked(True)
+    dialog.start.click()
+    qtbot.waitUntil(lambda: not isValid(dialog), timeout=60_000)
+    scale = np.array(session.annotation.size) / np.array(session.clip.size)
+    for track, place in zip(session.annotation.tracks, places, strict=True):
+        cells = session.annotation.track(track)
+        expected = session.annotation.track(track).xy[0] + np.arange(len(cells))[:, None] * (0.5, 0.25) * scale
+        np.testing.assert_allclose(cells.xy, expected, atol=2e-3)
+        assert cells.flags[0] & KEY and np.hypot(*(cells.xy[0] - place)) < 1.0, "a human key is never overwritten"
+        assert cells.state[1:5].tolist() == [VISIBLE] * 4 and cells.state[5] == OCCLUDED
+    session.undo()
+    assert all((session.annotation.track(t).state[1:] == NONE).all() for t in session.annotation.tracks)
+
+
+def test_a_wrong_checkout_is_said_in_the_dialog(workspace, tmp_path):
+    choose_all(workspace)
+    place_points(workspace, each=1)
+    dialog = opened(workspace)
+    dialog.choose("cotracker")
+    dialog.checkout.line.setText(str(tmp_path))
+    dialog.consent.setChecked(True)
+    dialog.start.click()
+    assert dialog.isVisible() and "predictor.py" in dialog.note.text()
+    dialog.reject()
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(600)
+def test_solve_from_scene_with_one_button(workspace, qtbot):
+    """The real optimiser in its own process, given what was placed; its scene's tracks fill the rest."""
+    choose_all(workspace)
+    place_points(workspace, each=1)
+    dialog, session = opened(workspace), workspace.session
+    dialog.choose("scene")
+    dialog.minutes.setItemData(0, 0.25)
+    dialog.start.click()
+    qtbot.waitUntil(lambda: not isValid(dialog), timeout=500_000)
+    given = read_tracks(session.project.path.with_suffix(".scene.tracks.npz"), session.annotation.size)
+    assert (given.state[:, 0] == VISIBLE).all() and (given.state[:, 1:] == NONE).all()
+    for track in session.annotation.tracks:
+        cells = session.annotation.track(track)
+        assert (cells.state != NONE).all() and cells.flags[0] & KEY
+        assert track in session.project.annotation.proposals
