@@ -944,8 +944,8 @@
       <translation>Aus der Szene lösen</translation>
     </message>
     <message>
-      <source>Optimises a 4D scene of this clip and takes its tracks, which go on behind what hides them.</source>
-      <translation>Optimiert eine 4D-Szene dieses Clips und nimmt deren Spuren, die hinter Verdeckungen weitergehen.</translation>
+      <source>Optimises a 4D scene that follows what you placed so far and takes its tracks, which go on behind what hides them.</source>
+      <translation>Optimiert eine 4D-Szene, die dem bisher Gesetzten folgt, und nimmt ihre Spuren, die hinter Verdeckungen weitergehen.</translation>
     </message>
     <message>
       <source>CoTracker (yours)</source>
@@ -1352,6 +1352,10 @@
       <translation>Wird gelöst …</translation>
     </message>
     <message>
+      <source>Place this point first.</source>
+      <translation>Setzen Sie zuerst diesen Punkt.</translation>
+    </message>
+    <message>
       <source>Seeding {n} tracks …</source>
       <translation>{n} Spuren werden vorgeschlagen …</translation>
     </message>
@@ -1364,12 +1368,8 @@
       <translation>{name} setzt Spuren …</translation>
     </message>
     <message>
-      <source>Place this point first.</source>
-      <translation>Setzen Sie zuerst diesen Punkt.</translation>
-    </message>
-    <message>
-      <source>Carried on from x {x:.1f}, y {y:.1f}.</source>
-      <translation>Fortgesetzt von x {x:.1f}, y {y:.1f}.</translation>
+      <source>The object is not seen in both frames; the point stays where it is.</source>
+      <translation>Das Objekt ist nicht in beiden Bildern zu sehen; der Punkt bleibt, wo er ist.</translation>
     </message>
     <message>
       <source>Seed {n} tracks</source>

@@ -167,6 +167,16 @@ def test_tracks_without_annotation_say_nothing(clip_folder):
     assert tracks.object.tolist() == [0, 0]
 
 
+def test_given_tracks_take_the_place_of_the_clips_own(clip_folder, tmp_path):
+    own, given = np.full((2, T, 2), 1.0, np.float32), np.full((1, T, 2), 5.0, np.float32)
+    np.savez(clip_folder / "tracks.npz", xy=own, state=np.ones((2, T), np.uint8), object=[1, 2], size=[32, 24])
+    np.savez(tmp_path / "a.npz", xy=given, state=np.ones((1, T), np.uint8), object=[2], size=[32, 24])
+    tracks = folders.read(clip_folder, tracks=tmp_path / "a.npz").tracks.value
+    assert tracks.object.tolist() == [2] and (tracks.xy == 5.0).all()
+    plain = folders.read(clip_folder / "JPEGImages" / "clip", tracks=tmp_path / "a.npz")  # a folder without channels
+    assert plain.tracks.value.object.tolist() == [2]
+
+
 def test_painted_background(clip_folder):
     plate = np.full((H, W, 3), 77, np.uint8)
     put_image(clip_folder / "InpaintedBackgrounds" / "00000.png", plate)
