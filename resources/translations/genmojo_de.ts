@@ -396,6 +396,14 @@
       <translation>Ausschneiden</translation>
     </message>
     <message>
+      <source>Instead of the selected object's mask</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>What is drawn replaces its mask in every frame; runs use the new one.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>Choose {name}</source>
       <translation>{name} wählen</translation>
     </message>
@@ -2152,6 +2160,10 @@
       <translation>Das ist mehr, als diese Maschine frei hat: wählen Sie eine kleinere Voreinstellung.</translation>
     </message>
     <message>
+      <source>The run uses the masks that were corrected here.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>Stop when a minute buys less than</source>
       <translation>Beenden, wenn eine Minute weniger bringt als</translation>
     </message>
@@ -3434,6 +3446,14 @@
     <message>
       <source>Ten steps on a clip made on the spot.</source>
       <translation>Zehn Schritte an einem Clip, der an Ort und Stelle entsteht.</translation>
+    </message>
+    <message>
+      <source>Draw the selected mask anew</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Step 1; what is drawn replaces the object's mask.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>Step 1 of 4.</source>
