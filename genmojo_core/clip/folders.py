@@ -43,8 +43,7 @@ def read(
     Returns:
         A Clip whose channels are None where nothing is given. Frames without a frame rate get 24 per second.
 
-    Raises:
-        GenmojoError: one sentence with the file, for anything the files or arguments can cause.
+    Raises GenmojoError: one sentence with the file, for anything the files or arguments can cause.
     """
     _check_arguments(short_side, ignore)
     layout = layouts.find(Path(path))
@@ -68,12 +67,9 @@ def read(
     clip = _with_masks(clip, layout, read_in, about)
     ids = clip.object_ids if clip.objects else list(about.names)
     only_object = int(ids[0]) if len(ids) == 1 else 0
-    if layout.root is not None:
-        left_out = frozenset(ignore) | (frozenset() if tracks is None else {"tracks"})
-        clip = _with_channels(clip, layout.root, read_in, only_object, left_out)
-    if tracks is not None:
-        clip = replace(clip, tracks=given_tracks.read(Path(tracks), read_in, only_object))
-    return clip
+    left_out = frozenset([*ignore, "tracks"] if tracks else ignore)
+    clip = clip if layout.root is None else _with_channels(clip, layout.root, read_in, only_object, left_out)
+    return replace(clip, tracks=given_tracks.read(Path(tracks), read_in, only_object)) if tracks else clip
 
 
 def _check_arguments(short_side: int | None, ignore: Collection[str]) -> None:
