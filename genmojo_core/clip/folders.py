@@ -52,24 +52,30 @@ def read(
     else:
         read_in = pictures.from_files(layout.frames, frames, short_side, str(layout.path))
     about = meta.read(layout.root / "meta.json") if layout.root else meta.Meta()
-    aspect = next((a for a in (pixel_aspect, about.pixel_aspect, read_in.pixel_aspect) if a is not None), 1.0)
-    clip = Clip(
-        name=layout.name,
-        path=str(path),
-        frames=read_in.frames,
-        frame_index=read_in.numbers,
-        seconds=_seconds(read_in, about.fps),
-        source_names=read_in.names,
-        source_size=read_in.source_size,
-        pixel_aspect=meta.check_pixel_aspect(aspect, str(path)),
-        guesses=read_in.notes,
-    )
-    clip = _with_masks(clip, layout, read_in, about)
+    clip = _with_masks(_bare(layout, str(path), read_in, about, pixel_aspect), layout, read_in, about)
     ids = clip.object_ids if clip.objects else list(about.names)
     only_object = int(ids[0]) if len(ids) == 1 else 0
     left_out = frozenset([*ignore, "tracks"] if tracks else ignore)
     clip = clip if layout.root is None else _with_channels(clip, layout.root, read_in, only_object, left_out)
     return replace(clip, tracks=given_tracks.read(Path(tracks), read_in, only_object)) if tracks else clip
+
+
+def _bare(
+    layout: layouts.Layout, path: str, read_in: pictures.Pictures, about: meta.Meta, pixel_aspect: float | None
+) -> Clip:
+    """The clip's frames, times and names, without any channel."""
+    aspect = next((a for a in (pixel_aspect, about.pixel_aspect, read_in.pixel_aspect) if a is not None), 1.0)
+    return Clip(
+        name=layout.name,
+        path=path,
+        frames=read_in.frames,
+        frame_index=read_in.numbers,
+        seconds=_seconds(read_in, about.fps),
+        source_names=read_in.names,
+        source_size=read_in.source_size,
+        pixel_aspect=meta.check_pixel_aspect(aspect, path),
+        guesses=read_in.notes,
+    )
 
 
 def _check_arguments(short_side: int | None, ignore: Collection[str]) -> None:
