@@ -25,7 +25,7 @@ _AXIS = 14  # pixels of the rim with the numbers
 class ViewMap(QWidget):
     """Azimuth -180..180 from left to right, elevation 90..-90 from top to bottom.
 
-    Green: within the safe band of a supervised view; amber, ever darker: far from all. A click, a drag or the arrow
+    Green: within the safe band of a supervised view; amber, ever fainter: far from all. A click, a drag or the arrow
     keys turn the view: `orbit_wanted(Orbit)`.
     """
 
@@ -41,7 +41,7 @@ class ViewMap(QWidget):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(tr("Map of directions"))
         self.setToolTip(
-            tr("Every direction: green was supervised or is within {degrees:.0f}° of it, dark is a guess.\n"
+            tr("Every direction: green was supervised or is within {degrees:.0f}° of it, faint is a guess.\n"
                "Points are supervised views, the ring is this view. Click, drag or use the arrow keys to turn.")
             .format(degrees=SAFE_DEGREES)
         )  # fmt: skip

@@ -7,12 +7,15 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QPushButton
 
 from genmojo_core.clip.cameras import Cameras
 from genmojo_core.store import scene_hdf5
 from genmojo_core.store.scene_file import BakedScene, SceneObject
+from genmojo_studio import theme
 from genmojo_studio.view3d.look import Mode
 from genmojo_studio.view3d.snapshot import SceneSnapshot
+from genmojo_studio.watch import view_map
 from genmojo_studio.watch.time_bar import TimeBar
 
 _FRAMES = 4
@@ -153,3 +156,47 @@ def _point(x, y):
     from PySide6.QtCore import QPoint
 
     return QPoint(round(x), round(y))
+
+
+def test_the_map_shows_what_was_supervised_and_turns_the_view(window, watch, qtbot):
+    found = view_map.distances(np.array([[0.0, 90.0, 0.0]]))
+    assert found[18, 53] < 4 and found[18, 36] < 4  # azimuth 87.5 and 2.5: the supervised view and the input camera
+    assert found[18, 0] == pytest.approx(92.5, abs=0.1) and found[0, 36] == pytest.approx(
+        87.5, abs=0.1
+    )  # behind, above
+    shown = watch.view_panel.map
+    field = shown._field()
+    for elevation, azimuth in ((30.0, -60.0), (0.0, 0.0), (-45.0, 120.0)):
+        back = view_map.angles_at(field, view_map._place(field, elevation, azimuth))
+        assert back == pytest.approx((elevation, azimuth), abs=1e-9)
+    there = view_map._place(field, 40.0, 80.0).toPoint()
+    QTest.mouseClick(shown, Qt.MouseButton.LeftButton, pos=there)
+    qtbot.waitUntil(lambda: abs(watch.view.orbit.azimuth - 80) < 2 and abs(watch.view.orbit.elevation - 40) < 2)
+    azimuth = watch.view.orbit.azimuth
+    QTest.keyClick(shown, Qt.Key.Key_Left)
+    qtbot.waitUntil(lambda: watch.view.orbit.azimuth == pytest.approx(azimuth - 5))
+    assert watch.view_panel.badge.property("role") == "warn"
+
+
+def test_two_scenes_get_equal_room_and_the_input_comes_back(window, watch, qtbot):
+    watch.compare._freeze()
+    pane, view = watch.compare.pane, watch.view
+    qtbot.waitUntil(lambda: pane.isVisible() and abs(pane.width() - view.width()) < 12)
+    assert not watch.center.input_picture.isVisible() and pane.width() > 250
+    watch.compare.mode.setCurrentIndex(0)
+    watch.compare._take_mode()
+    assert watch.center.input_picture.isVisible() and not pane.isVisible()
+
+
+def test_another_theme_is_on_show_at_once_and_everywhere_soon(window, watch, qtbot):
+    def ground(button):
+        return button.grab().toImage().pixelColor(button.width() // 2, 3).name()
+
+    button = watch.view_panel.findChild(QPushButton)
+    window.table.trigger("window.theme")
+    other = theme.colours(window.state.theme)
+    assert ground(button) == other.raised
+    window.show_workspace("")  # was hidden
+    plain = next(b for b in window.welcome.findChildren(QPushButton) if not b.isDefault())
+    qtbot.waitUntil(lambda: ground(plain) == other.raised)
+    window.table.trigger("window.theme")
