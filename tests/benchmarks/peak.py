@@ -8,6 +8,7 @@ import numba
 import numpy as np
 
 from genmojo_core.kernels.simd import fma, load8, splat8, store8
+from genmojo_core.kernels.threads import run_jobs
 
 
 @numba.njit(nogil=True)
@@ -37,3 +38,11 @@ def peak_flops(seconds: float = 0.5) -> float:
         _chains(rounds, seeds, out)
         best = max(best, rounds * 12 * 8 * 2 / max(time.process_time() - start, 1e-9))
     return best
+
+
+def multiply_seconds(jobs: int) -> float:
+    """Wall seconds for `jobs` equal loops of fused multiply-adds on the kernels' threads: nothing shared, no memory."""
+    seeds, outs = np.full(16, 0.5, np.float32), np.empty((jobs, 8), np.float32)
+    start = time.perf_counter()
+    run_jobs(lambda index: _chains(3_000_000, seeds, outs[index]), jobs)
+    return time.perf_counter() - start

@@ -28,7 +28,7 @@ from genmojo_core.kernels import threads
 from genmojo_core.render import autograd, torch_tiles
 from genmojo_core.render.cpu import rasterize
 from genmojo_core.render.rasterizer import Rendering, Splats
-from tests.benchmarks.peak import peak_flops
+from tests.benchmarks.peak import multiply_seconds, peak_flops
 from tests.benchmarks.plot import draw_plot, linear_cost
 from tests.benchmarks.workload import CHANNELS, COUNTS, FLOW, SIZES, count_pairs, scene, view_of
 
@@ -70,7 +70,8 @@ def main() -> None:
         figures["cost"] = linear_cost(rows)
         print("cost: {per_pair:.3g} s per pair, {per_splat:.3g} s per splat, median error {median_error:.0%}".format(
             **figures["cost"]))  # fmt: skip
-    print("two threads: {ratio:.2f}x the speed of one (best {best:.2f}x), load {load:.1f}".format(**figures["threads"]))
+    print("two threads: {ratio:.2f}x the speed of one (best {best:.2f}x), bare multiply-adds {machine:.2f}x (best"
+          " {machine_best:.2f}x), load {load:.1f}".format(**figures["threads"]))  # fmt: skip
     if arguments.plot:
         draw_plot(rows, arguments.plot)
     if arguments.json:
@@ -135,21 +136,27 @@ def gsplat_seconds(splats: Splats[np.ndarray], view: View) -> list[float]:
 def two_threads(rounds: int = 40) -> dict[str, float]:
     """How many times as fast (wall time) two threads are as one, at 10k splats 256 x 256, interleaved.
 
-    A value for free cores only: `load` is the machine's load average when it was measured.
+    `machine` is the same ratio of a loop of nothing but multiply-adds, measured between the rounds: what the two
+    processors give at that moment. `load` is the machine's load average before.
     """
     splats, view = scene(10_000, 256, 256), view_of(256, 256)
     upstream = Rendering(*(np.ones((256, 256, *tail), np.float32) for tail in ((CHANNELS,), (), ())))
     seconds: dict[int, list[float]] = {1: [], 2: []}
+    loops: dict[int, list[float]] = {1: [], 2: []}
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
     for _ in range(rounds):
         for count, found in seconds.items():
             threads.set_threads(count)
+            multiply_seconds(count)  # starts the threads and wakes the processors alike
+            loops[count].append(multiply_seconds(count))
             start = time.perf_counter()
             rasterize.backward(rasterize.draw(splats, view, detached_channels=FLOW), upstream)
             found.append(time.perf_counter() - start)
     threads.set_threads(1)
+    one, two = statistics.median(loops[1]), statistics.median(loops[2])
     return {"ratio": statistics.median(seconds[1]) / statistics.median(seconds[2]),
-            "best": min(seconds[1]) / min(seconds[2]), "load": load}  # fmt: skip
+            "best": min(seconds[1]) / min(seconds[2]), "machine": 2 * one / two,
+            "machine_best": 2 * min(loops[1]) / min(loops[2]), "load": load}  # fmt: skip
 
 
 def both_passes(draw: Callable, splats: Splats[np.ndarray], view: View) -> tuple[float, float]:

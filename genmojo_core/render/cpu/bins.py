@@ -14,8 +14,9 @@ import numpy as np
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.kernels.cache import inlined, kernel
-from genmojo_core.kernels.scalars import smaller
+from genmojo_core.kernels.scalars import larger, smaller
 from genmojo_core.kernels.simd import prefetch
+from genmojo_core.kernels.threads import get_threads, run_ranges
 from genmojo_core.render.cpu.project import GEOMETRY, Ellipses, Lens
 
 TILE = 16  # pixels
@@ -106,24 +107,25 @@ def count_slots(box: np.ndarray, first_slot: np.ndarray) -> tuple:
 
 
 @kernel
-def count_entries(box: np.ndarray, tiles_x: int, tile_start: np.ndarray) -> None:
-    """Fill tile_start (T + 1,) int64, zero on entry."""
+def count_entries(first: int, stop: int, box: np.ndarray, tiles_x: int, tile_start: np.ndarray) -> None:
+    """Count the entries of every tile in tile rows first..stop-1 into tile_start (T + 1,) int64, zero on entry."""
     for rank in range(box.shape[0]):
         x0, x1, y0, y1 = _tiles(box, rank)
-        for y in range(y0, y1 + 1):
+        for y in range(larger(y0, first), smaller(y1 + 1, stop)):
             for x in range(x0, x1 + 1):
                 tile_start[y * tiles_x + x + 1] += 1
-    for tile in range(tile_start.size - 1):
-        tile_start[tile + 1] += tile_start[tile]
 
 
 @kernel
-def scatter_entries(bins: Bins, following: np.ndarray) -> None:
-    """Fill rank and slot of every entry, tile by tile in depth order; following (T,): a copy of tile_start."""
+def scatter_entries(first: int, stop: int, bins: Bins, following: np.ndarray) -> None:
+    """Fill rank and slot of the entries in tile rows first..stop-1, tile by tile in depth order.
+
+    following (T,): a copy of tile_start.
+    """
     for rank in range(bins.box.shape[0]):
         x0, x1, y0, y1 = _tiles(bins.box, rank)
-        slot = bins.first_slot[rank]
-        for y in range(y0, y1 + 1):
+        for y in range(larger(y0, first), smaller(y1 + 1, stop)):
+            slot = bins.first_slot[rank] + (y - y0) * (x1 - x0 + 1)
             for x in range(x0, x1 + 1):
                 entry = following[y * bins.tiles_x + x]
                 following[y * bins.tiles_x + x] = entry + 1
@@ -150,8 +152,11 @@ def bin_splats(lens: Lens, order: np.ndarray, box: np.ndarray) -> Bins:
             "remove or shrink splats that fill the view, or render a smaller image",
         )
     tile_start = np.zeros(tiles_x * tiles_y + 1, np.int64)
-    count_entries(box, tiles_x, tile_start)
+    band = -(-tiles_y // get_threads())  # of tile rows: every thread walks all splats
+    run_ranges(lambda a, b: count_entries(a, b, box, tiles_x, tile_start), tiles_y, band)
+    np.cumsum(tile_start, out=tile_start)
     rank, slot = np.empty(entries, np.int32), np.empty(entries, np.int32)
     bins = Bins(order, box, first_slot, tile_start, rank, slot, tiles_x, tiles_y)
-    scatter_entries(bins, tile_start.copy())
+    following = tile_start.copy()
+    run_ranges(lambda a, b: scatter_entries(a, b, bins, following), tiles_y, band)
     return bins

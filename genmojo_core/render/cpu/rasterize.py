@@ -30,6 +30,7 @@ from genmojo_core.render.rasterizer import Rendering, Splats
 
 MAX_SLOTS = 16  # channels of one pass, depth included
 SPLATS_PER_JOB = 2048
+ROWS_PER_JOB = 64
 
 
 @dataclass(frozen=True)
@@ -206,14 +207,8 @@ def _add_gradients(
 ) -> None:  # fmt: skip
     """Add the gradients of one pass to `out`; depth and alpha count in the first pass only."""
     bins, layout = drawn.bins, one.layout
-    height, width = drawn.lens.height, drawn.lens.width
-    planes = _blank(one, height, width, depth=first)
-    if first:
-        planes[0, :height, :width] = upstream.alpha
-        planes[1, :height, :width] = upstream.depth
-    features = np.moveaxis(np.asarray(upstream.features), 2, 0)
-    for columns, places in layout.columns():
-        planes[1 + places.start : 1 + places.stop, :height, :width] = features[columns]
+    planes = take(one.planes.shape)
+    run_ranges(lambda a, b: _fill(planes, (a, b), drawn, layout, upstream, first), planes.shape[1], ROWS_PER_JOB)
     row = -(-(MOMENTS + layout.slots) // 8) * 8
     slopes = Slopes(planes.ravel(), take((len(bins.rank) * row,)), row)
     tiles = bins.tiles_x * bins.tiles_y
@@ -229,15 +224,28 @@ def _add_gradients(
     run_jobs(job, -(-ranks // SPLATS_PER_JOB))
 
 
-def _blank(one: Pass, height: int, width: int, *, depth: bool) -> np.ndarray:
-    """Planes for a pass's upstream gradients: 0 wherever nothing will be written."""
-    planes = take(one.planes.shape)
-    planes[:, height:] = 0
-    planes[:, :height, width:] = 0
-    slots = one.layout.feature_slots()
-    planes[2 if depth else 0 : 1 + slots.start] = 0
-    planes[1 + slots.stop :] = 0
-    return planes
+def _fill(
+    planes: np.ndarray,
+    rows: tuple[int, int],
+    drawn: Drawn,
+    layout: Layout,
+    upstream: Rendering[np.ndarray],
+    first: bool,
+) -> None:
+    """Rows of the planes of a pass's upstream gradients: 0 outside the picture and in empty slots."""
+    width, slots = drawn.lens.width, layout.feature_slots()
+    band, inside = planes[:, rows[0] : rows[1]], slice(rows[0], min(rows[1], drawn.lens.height))
+    height = max(inside.stop - inside.start, 0)
+    band[:, height:] = 0
+    band[:, :height, width:] = 0
+    band[2 if first else 0 : 1 + slots.start] = 0
+    band[1 + slots.stop :] = 0
+    if first:
+        band[0, :height, :width] = upstream.alpha[inside]
+        band[1, :height, :width] = upstream.depth[inside]
+    features = np.moveaxis(np.asarray(upstream.features)[inside], 2, 0)
+    for columns, places in layout.columns():
+        band[1 + places.start : 1 + places.stop, :height, :width] = features[columns]
 
 
 def room(floats: int, marks: int) -> tuple[np.ndarray, np.ndarray]:
