@@ -1,4 +1,4 @@
-"""Issue 6, "Shown by": the prior on its frozen test set, out of its generator, in a fit, and in whole runs.
+"""Issue 6, "Shown by": the prior on its frozen test set, out of its generator and in whole runs; tracks; the ablation.
 
     python tests/acceptance/6.py --work DIR [--only frozen,crops,fit] [--again] [--data ../shared/data]
 
@@ -14,6 +14,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+from ablation_rows import ROWS as ABLATION
 from table import Bench, Check, Rows, main
 
 FLAT = {"blender-cross": 15.6, "blender-trio": 17.6}  # dB of the true silhouette in one flat colour at ±90 and 180
@@ -137,6 +138,7 @@ ROWS: Rows = {
     "novel-cross": ("blender-cross, standard", novel("blender-cross")),
     "novel-trio": ("blender-trio, standard", novel("blender-trio")),
     "crossing": ("crossing 0:24, standard with prior", crossing),
+    **ABLATION,
 }
 
 
