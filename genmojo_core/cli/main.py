@@ -10,7 +10,19 @@ from collections.abc import Sequence
 from types import TracebackType
 
 from genmojo_core import __version__
-from genmojo_core.cli import ablate, demo, export, files, optimise, pictures, priors, scores, track_files, tradeoff
+from genmojo_core.cli import (
+    ablate,
+    demo,
+    export,
+    files,
+    optimise,
+    pictures,
+    priors,
+    scores,
+    selftest,
+    track_files,
+    tradeoff,
+)
 from genmojo_core.cli.arguments import Parser
 from genmojo_core.cli.output import say, show
 from genmojo_core.errors import GenmojoError
@@ -41,7 +53,7 @@ def _parser() -> Parser:
     parser = Parser(prog="genmojo", description="Multi-object video to 4D Gaussian scenes and point tracks.")
     parser.add_argument("--version", action="version", version=f"genmojo {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for group in (demo, optimise, pictures, scores, files, export, track_files, priors, ablate, tradeoff):
+    for group in (demo, optimise, pictures, scores, files, export, track_files, priors, ablate, tradeoff, selftest):
         group.add_commands(commands)
     for command in commands.choices.values():
         command.add_argument("--json", action="store_true", help="one JSON object on stdout")

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,9 @@ from safetensors.torch import save as save_tensors
 from torch import Tensor
 
 from genmojo_core.errors import GenmojoError
+from genmojo_core.optimise.density import GradientStatistics
+from genmojo_core.optimise.objective import Objective
+from genmojo_core.optimise.regularise import Neighbours
 from genmojo_core.scene.gaussians import Gaussians
 from genmojo_core.scene.scene4d import Scene4D
 from genmojo_core.store.atomic import write_bytes
@@ -142,3 +145,27 @@ def _unshared(tensors: dict[str, Tensor]) -> dict[str, Tensor]:
         result[name] = value.clone() if pointer in seen else value
         seen.add(pointer)
     return result
+
+
+Statistics = Sequence[tuple[Gaussians, GradientStatistics]]
+
+
+def working_state(statistics: Statistics, objective: Objective) -> dict[str, Tensor]:
+    """What the loop carries from step to step besides the scene and the optimiser."""
+    state = {}
+    for i, (_, one) in enumerate(statistics):
+        state[f"total.{i}"], state[f"seen.{i}"] = one.total, one.seen
+    for i, near in enumerate(objective.neighbours):
+        if near is not None:
+            state[f"index.{i}"], state[f"weight.{i}"] = near.index, near.weight
+    return state
+
+
+def restore_working_state(statistics: Statistics, objective: Objective, state: Mapping[str, Tensor]) -> None:
+    """The inverse of `working_state`."""
+    for i, (_, one) in enumerate(statistics):
+        one.total, one.seen = state[f"total.{i}"], state[f"seen.{i}"]
+    objective.neighbours = [
+        None if near is None else Neighbours(state[f"index.{i}"], state[f"weight.{i}"])
+        for i, near in enumerate(objective.neighbours)
+    ]

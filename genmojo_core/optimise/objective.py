@@ -10,6 +10,7 @@ from torch import Tensor
 
 from genmojo_core.config import LossWeights
 from genmojo_core.effects.plan import EffectPlan
+from genmojo_core.errors import GenmojoError
 from genmojo_core.optimise import losses
 from genmojo_core.optimise.regularise import Neighbours, nearest, rigidity, scale_terms
 from genmojo_core.optimise.targets import FrameTargets, Targets
@@ -113,7 +114,15 @@ class Objective:
         layout = self.scene.layout
         c = self.scene.compose(t, now, after if layout.flow else None)
         splats = Splats(c.means, c.quats, c.scales, c.opacities, c.features)
-        return self.splat(splats, self.scene.cameras.view(t), detached_channels=2 if layout.flow else 0)
+        try:
+            return self.splat(splats, self.scene.cameras.view(t), detached_channels=2 if layout.flow else 0)
+        except GenmojoError as error:
+            if error.code != "budget":
+                raise
+            widest = max(now, key=lambda state: float(state.scales.detach().max()), default=None)
+            name = "the background" if widest is None else self.scene.objects[now.index(widest)].name
+            raise GenmojoError("budget", f"the Gaussians of {name} fill the view: {error.what}", "",
+                               "go on from the last checkpoint with smaller learning rates") from error  # fmt: skip
 
     @property
     def compares_windows(self) -> bool:

@@ -89,7 +89,7 @@ class Progress:
         self.step += 1
         self._stage_step += 1
         self._last = outcome
-        self._held.update({row.frame: row for row in outcome.held_out if row.count})
+        self._held.update({row.frame: row for row in outcome.held_out if row.count and math.isfinite(row.squared)})
         return self.step % CURVE_EVERY == 0 or self.step == 1
 
     def point(self, clock: Clock, gaussians: int, **figures: float) -> None:

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import torch
 
+from genmojo_core.clip.cameras import Cameras
 from genmojo_core.clip.clip import Clip
 from genmojo_core.config import RunConfig
 from genmojo_core.effects.plan import EffectPlan
@@ -44,7 +45,6 @@ from genmojo_core.optimise.live import LiveFrame, live_frame
 from genmojo_core.optimise.motion import ObjectMotion, initial_motion
 from genmojo_core.optimise.objective import Objective, Outcome, TrackSupervision
 from genmojo_core.optimise.progress import Clock, Progress
-from genmojo_core.optimise.regularise import Neighbours
 from genmojo_core.optimise.schedule import (
     Stage,
     draw_frames,
@@ -57,6 +57,7 @@ from genmojo_core.optimise.schedule import (
 from genmojo_core.optimise.separate import SeparateObjective
 from genmojo_core.optimise.targets import Targets
 from genmojo_core.optimise.unseen import Moment, UnseenViews
+from genmojo_core.optimise.working_space import working_space
 from genmojo_core.priors.choose import choose as choose_prior
 from genmojo_core.render.backend import choose
 from genmojo_core.store.scene_file import BakedScene
@@ -91,7 +92,9 @@ class Run:
         curve_path: Path | None = None,
     ) -> None:  # fmt: skip
         self.held = held_frames(len(clip), config.held_out_every)
-        self.whole, self.clip = clip, without(clip, self.held)
+        self.space = working_space(clip)
+        self.whole = self.space.inside(clip)
+        self.clip = without(self.whole, self.held)
         self.plan, self.config = plan, config
         self.run_dir = None if run_dir is None else Path(run_dir)
         self.resume = resume
@@ -111,20 +114,24 @@ class Run:
 
     def bake(self) -> BakedScene:
         """The scene as it stands. Raises GenmojoError("empty") before the first Preview."""
-        if not hasattr(self, "scene"):
-            raise GenmojoError("empty", "there is no scene yet", self.clip.name, "let the run reach its first preview")
+        self._must_stand()
         config = {**self.config.to_json(), "input": self.clip.path, "guesses": list(self.clip.guesses)}
         if self.changes:
             config["changes"] = [change.to_json() for change in self.changes]
         metrics = {"steps": float(self.progress.step), "seconds": self.clock.now()[0]}
         provenance = Provenance(config, self.plan.to_json(), self.progress.curve, metrics)
-        return bake(self.scene, self.clip, provenance, None if self.unseen is None else self.unseen.supervised())
+        judged = None if self.unseen is None else self.unseen.supervised()
+        return self.space.outside(bake(self.scene, self.clip, provenance, judged))
 
     def live(self, t: int) -> LiveFrame:
         """The Gaussians of frame t as they stand. Raises GenmojoError("empty") before the first Preview."""
-        if not hasattr(self, "scene"):
-            raise GenmojoError("empty", "there is no scene yet", self.clip.name, "let the run reach its first preview")
-        return live_frame(self.scene, t)
+        self._must_stand()
+        return self.space.outside_live(live_frame(self.scene, t))
+
+    def cameras(self) -> Cameras:
+        """The clip's cameras at the optimised size. Raises GenmojoError("empty") before the first Preview."""
+        self._must_stand()
+        return self.space.outside_cameras(self.scene.cameras)
 
     def change(self, name: str, value: float) -> ParameterChanged:
         """Set a parameter of `parameters.PARAMETERS` from the next step on. Raises GenmojoError("argument")."""
@@ -227,6 +234,10 @@ class Run:
         reason = "goal" if self.goal else reason
         yield Finished(*self.clock.now(), self.progress.step, reason, {"psnr_held_out": self.progress.psnr()})
 
+    def _must_stand(self) -> None:
+        if not hasattr(self, "scene"):
+            raise GenmojoError("empty", "there is no scene yet", self.clip.name, "let the run reach its first preview")
+
     def _motion_deadline(self) -> Deadline:
         """The initial motion takes at most a share of the budget, and ends when the run is stopped."""
         left = MOTION_SHARE * self.config.budget_seconds - self.clock.this_run()
@@ -263,7 +274,7 @@ class Run:
             self.clock.add(meta["seconds"], meta["cpu_seconds"])
             self.generator.set_state(torch.tensor(meta["generator"], dtype=torch.uint8))
             self._new_statistics()
-            self._restore_working_state(state)
+            checkpoint.restore_working_state(self.statistics, self.objective, state)
         else:
             self._new_statistics()
         self.guard = Guard(self.scene, self.optimiser)
@@ -285,6 +296,8 @@ class Run:
             for message in self.guard.quarantine():
                 yield Warned(*self.clock.now(), "not_finite", message)
             outcome = self._step(stage, i)
+            for message in [*self.guard.news(), *(self.unseen.news() if self.unseen is not None else [])]:
+                yield Warned(*self.clock.now(), "not_finite", message)
             i += 1
             if self.config.paced and (i < PACE_EVERY or i % PACE_EVERY == 0):
                 stage = self.progress.pace(stage, i, self.clock)
@@ -326,14 +339,15 @@ class Run:
         share = share if len(self.clip) > 1 else 1.0
         candidates = frames_in_play(len(self.clip), self.reference, share, self.held)
         frames = draw_frames(candidates, self.config.frames_per_step, self.config.seed, self.progress.step)
-        set_rates(self.optimiser, self.progress.fraction(self.clock))
+        set_rates(self.optimiser, self.progress.fraction(self.clock), self.guard.rate)
         self.optimiser.zero_grad(set_to_none=True)
-        outcome = self.objective.evaluate(frames, stage.deform, self.generator)
-        if self.unseen is not None:
-            moment = Moment(self.progress.step / self.progress.total, stage.deform, self.progress.step)
-            self.unseen.add_to(outcome, moment, self.config.weights.unseen, self.generator)
-        outcome.loss.backward()
-        verdict = self.guard.judge(outcome.loss)
+        with torch.autocast("cpu", enabled=False), torch.autocast("cuda", enabled=False):  # float32 throughout (N25)
+            outcome = self.objective.evaluate(frames, stage.deform, self.generator)
+            if self.unseen is not None:
+                moment = Moment(self.progress.step / self.progress.total, stage.deform, self.progress.step)
+                self.unseen.add_to(outcome, moment, self.config.weights.unseen, self.generator)
+            outcome.loss.backward()
+        verdict = self.guard.judge(outcome.loss, outcome.parts)
         if verdict == "rollback":
             self.guard.rollback()
         elif verdict == "step":
@@ -358,25 +372,6 @@ class Run:
     def _new_statistics(self) -> None:
         self.statistics = [(o.gaussians, density.GradientStatistics(len(o.gaussians))) for o in self.scene.objects]
 
-    def _working_state(self) -> dict[str, torch.Tensor]:
-        """What the loop carries from step to step besides the scene and the optimiser."""
-        state = {}
-        for i, (_, statistics) in enumerate(self.statistics):
-            state[f"total.{i}"], state[f"seen.{i}"] = statistics.total, statistics.seen
-        for i, near in enumerate(self.objective.neighbours):
-            if near is not None:
-                state[f"index.{i}"], state[f"weight.{i}"] = near.index, near.weight
-        return state
-
-    def _restore_working_state(self, state: dict[str, torch.Tensor]) -> None:
-        """The inverse of `_working_state`."""
-        for i, (_, statistics) in enumerate(self.statistics):
-            statistics.total, statistics.seen = state[f"total.{i}"], state[f"seen.{i}"]
-        self.objective.neighbours = [
-            None if near is None else Neighbours(state[f"index.{i}"], state[f"weight.{i}"])
-            for i, near in enumerate(self.objective.neighbours)
-        ]
-
     def _over(self) -> bool:
         limit = self.step_limit is not None and self.progress.step >= self.step_limit
         self.goal = self.goal or self.progress.goal_reached()
@@ -388,6 +383,7 @@ class Run:
         wall, cpu = self.clock.now()
         meta = {**self.progress.state(), "seconds": wall, "cpu_seconds": cpu,
                 "generator": self.generator.get_state().tolist()}  # fmt: skip
-        path = checkpoint.save(self.run_dir, self.scene, self.optimiser, meta, self._working_state())
+        path = checkpoint.save(self.run_dir, self.scene, self.optimiser, meta,
+                               checkpoint.working_state(self.statistics, self.objective))  # fmt: skip
         self.progress.checkpointed(self.clock)
         yield Checkpointed(*self.clock.now(), self.progress.step, str(path))

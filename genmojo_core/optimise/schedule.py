@@ -96,9 +96,9 @@ def start_rate(kind: str, rates: LearningRates) -> float:
     return float(getattr(rates, "delta_color" if kind == "log_gain" else kind))
 
 
-def set_rates(optimiser: torch.optim.Optimizer, progress: float) -> None:
-    """Learning rates for this part of the run."""
-    factor = rate_factor(progress)
+def set_rates(optimiser: torch.optim.Optimizer, progress: float, caution: float = 1.0) -> None:
+    """Learning rates for this part of the run; `caution` is the guard's factor after trouble."""
+    factor = rate_factor(progress) * caution
     for group in optimiser.param_groups:
         group["lr"] = group["start_lr"] * factor
 

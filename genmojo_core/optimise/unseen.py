@@ -47,6 +47,7 @@ POINT_SHARE = 0.25  # of the allowed Gaussians, spent on unseen sides at first
 LAST_WEIGHT = 0.1  # of the loss, reached at the end of the run's last third
 COMPARED = (0.5, 0.75)  # shares of the run at which held-out pixels are compared with and without the prior
 WORSE = 0.1  # dB they must be better without it, to switch it off
+USELESS = 10  # steps in a row in which most of what the prior said was no number, until it is switched off
 SIZES = ((0.3, 2), (0.6, 3), (1.0, 4))  # until this share of the run: render side in units of the prior's side
 
 
@@ -95,6 +96,8 @@ class UnseenViews:
         self.seen: list[tuple[float, float, int]] = []
         self.asked: set[float] = set()  # shares of the run at which the held-out pixels were compared
         self.completed: set[int] = set()  # ids of objects with invented Gaussians
+        self.useless, self.told = 0, False
+        self._news: list[str] = []
         if isinstance(prior, EmbeddedPrior) and not everything:
             for one in self.subjects:
                 self._check_agreement(prior, one, motions[one.clip_indices[0]])
@@ -127,12 +130,19 @@ class UnseenViews:
         outcome.loss = outcome.loss + loss.to(outcome.loss.device)
         outcome.parts["unseen"] = float(loss.detach())
 
+    def news(self) -> list[str]:
+        """What was left out of the prior's words since the last call, a sentence each."""
+        told, self._news = self._news, []
+        return told
+
     def objection(self, objective: Objective, share: float) -> str:
-        """Why the prior must be switched off: the clip's held-out pixels are better without it; empty if they agree.
+        """Why the prior must be switched off: it gives no numbers, or held-out pixels are better without; or "".
 
         The same scene is drawn with and without the invented Gaussians, at the shares COMPARED of the run, when all
         frames take part. Costs two renderings of every frame.
         """
+        if self.useless >= USELESS:
+            return f"what the prior says was no usable number {USELESS} times in a row: it is switched off"
         due = next((at for at in COMPARED if share >= at and at not in self.asked), None)
         if due is None or not self.completed:
             return ""
@@ -175,7 +185,16 @@ class UnseenViews:
         pictures = self._render(one.models, placed, t, views, moment)
         level = float(rng.uniform(*levels(moment.share)))
         said = distil(self.prior, pictures, one.conditions[t], views, level, self.mode(), generator)
+        self._take_note(one, said.statistics["left_out"])
         return said.loss * placed.visible * (2.0 / said.gradient.numel())
+
+    def _take_note(self, one: Subject, left_out: float) -> None:
+        """Count steps without usable words; the first value left out is news."""
+        self.useless = self.useless + 1 if left_out > 0.5 else 0
+        if left_out and not self.told:
+            self.told = True
+            self._news.append(f"{100 * left_out:.2g} % of what the prior said of {one.name} was no usable number and "
+                              "is left out")  # fmt: skip
 
     def _render(
         self, models: list[ObjectModel], placed: PlacedReference, t: int, views: ViewOffsets, moment: Moment

@@ -19,6 +19,8 @@ from torch import Tensor
 from genmojo_core.errors import GenmojoError
 from genmojo_core.priors.prior import PriorGradient, ViewOffsets, ViewPrior
 
+GAP_LIMIT = 20.0  # pictures lie in 0..1, latents within a few units: a target farther from the render is no target
+
 Mode = Literal["sds", "x0", "pseudo"]
 MODES: tuple[str, ...] = get_args(Mode)
 
@@ -30,7 +32,8 @@ def distil(
     """Gradient of B renders (B, 4, H, W), premultiplied RGBA.
 
     `loss` is 1/2 sum of scalar * confidence * (x - target)^2 with everything but x held fixed, so that autograd gives
-    exactly `gradient`; the sum runs over pictures, channels and places. Values that are not finite count as 0.
+    exactly `gradient`; the sum runs over pictures, channels and places. Values that are not finite, or farther than
+    GAP_LIMIT from the render, count as 0; `statistics["left_out"]` is their share (RELIABILITY.md N26).
 
     Raises:
         GenmojoError("argument"): mode "pseudo" with a prior that has no mean view.
@@ -46,10 +49,12 @@ def distil(
                                    "use sds or x0")  # fmt: skip
             target = judged.mean
         factor = weight[:, None, None, None] * judged.confidence
-        target = torch.where(torch.isfinite(target), target, x)
-        factor = torch.nan_to_num(factor, nan=0.0, posinf=0.0, neginf=0.0)
+        usable = ((target - x).abs() < GAP_LIMIT) & torch.isfinite(factor)
+        target = torch.where(usable, target, x)
+        factor = torch.where(usable, factor, 0.0)
     gap = x - target
     loss = 0.5 * (factor * gap * gap).sum()
     gradient = (factor * gap).detach()
-    statistics = {"level": level, "weight": float(weight.mean()), "gap": float((gap.detach() ** 2).mean())}
+    statistics = {"level": level, "weight": float(weight.mean()), "gap": float((gap.detach() ** 2).mean()),
+                  "left_out": 1.0 - float(usable.float().mean())}  # fmt: skip
     return PriorGradient(gradient, target, weight, loss, statistics)

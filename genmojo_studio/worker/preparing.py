@@ -141,7 +141,7 @@ class WatchedRun:
                 objects.append(SnapshotObject(0, "background", (0.5, 0.5, 0.5), True))
             frames = len(clip)
             supervised = np.stack([np.zeros(frames), np.zeros(frames), np.arange(frames)], 1).astype(np.float32)
-            self._setting = Setting(frames, tuple(objects), scene.cameras.resized(*clip.source_size),
+            self._setting = Setting(frames, tuple(objects), self.run.cameras().resized(*clip.source_size),
                                     np.asarray(clip.world_up, float), self._target(), supervised)  # fmt: skip
         return self._setting
 
