@@ -61,8 +61,19 @@ def make_video(path: Path, codec: str, stamps: list[int], start: int, options: d
 
 @pytest.mark.parametrize("kind", FILES)
 def test_random_seeks_never_give_another_frame(tmp_path, kind):
+    check_seeks(tmp_path, kind, 100)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", FILES)
+def test_ten_thousand_random_seeks(tmp_path, kind):
+    check_seeks(tmp_path, kind, 1000)
+
+
+def check_seeks(folder: Path, kind: str, seeks: int) -> None:
+    """Frames asked for at random, and those kept on the way, show their own numbers."""
     suffix, codec, stamps, start, options = FILES[kind]
-    source = VideoFrames(make_video(tmp_path / f"v.{suffix}", codec, stamps, start, options))
+    source = VideoFrames(make_video(folder / f"v.{suffix}", codec, stamps, start, options))
     assert source.count == FRAMES
     wrong, kept_wrong = [], []
 
@@ -70,7 +81,7 @@ def test_random_seeks_never_give_another_frame(tmp_path, kind):
         if number_in(frame) != index:
             kept_wrong.append(index)
 
-    for index in np.random.default_rng(3).integers(0, FRAMES, 100).tolist():
+    for index in np.random.default_rng(3).integers(0, FRAMES, seeks).tolist():
         if number_in(source.read(index, keep)) != index:
             wrong.append(index)
     source.close()
