@@ -4,6 +4,10 @@ import numpy as np
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
+from genmojo_core.tracks import keys
+from genmojo_core.tracks.annotation import TRACKER, Proposal
+from genmojo_core.tracks.model import VISIBLE
+
 
 def at(workspace, x, y):
     """Widget pixel of a raster position."""
@@ -35,3 +39,15 @@ def place_points(workspace, each=2):
             placed.append((columns[k] + 0.5, rows[k] + 0.5))
             click(workspace, *placed[-1])
     return placed
+
+
+def fill(workspace):
+    """Tracks that stay where they were placed and are always visible: no tracker needed. Selects the first."""
+    session = workspace.session
+    frames = session.annotation.frames
+    found = {}
+    for track in session.annotation.tracks:
+        xy = np.repeat(session.annotation.track(track).xy[:1], frames, axis=0)
+        found[track] = Proposal("still", xy, np.full(frames, VISIBLE, np.uint8), np.full(frames, 0.9, np.float32))
+    session.do(keys.accept(session.annotation, found, TRACKER))
+    session.select_track(next(iter(found)))

@@ -6,14 +6,13 @@ Not covered here: how good the trackers are (tests/trackers, tests/acceptance/5.
 import sys
 
 import numpy as np
-from annotating import at, choose_all, click, place_points
+from annotating import at, choose_all, click, fill, place_points
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
 from genmojo_core.store.npz import read_tracks
 from genmojo_core.store.project import Project
-from genmojo_core.tracks import keys
-from genmojo_core.tracks.annotation import KEY, TRACKER, Proposal
+from genmojo_core.tracks.annotation import KEY
 from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE
 
 
@@ -30,18 +29,6 @@ def seed(workspace, qtbot):
     workspace.work.tracker.seed([o.id for o in workspace.session.objects()])
     qtbot.waitUntil(lambda: all((workspace.session.annotation.track(t).state != NONE).all()
                                 for t in workspace.session.annotation.tracks), timeout=120_000)  # fmt: skip
-
-
-def fill(workspace):
-    """Tracks that stay where they were placed and are always visible: no tracker needed. Selects the first."""
-    session = workspace.session
-    frames = session.annotation.frames
-    found = {}
-    for track in session.annotation.tracks:
-        xy = np.repeat(session.annotation.track(track).xy[:1], frames, axis=0)
-        found[track] = Proposal("still", xy, np.full(frames, VISIBLE, np.uint8), np.full(frames, 0.9, np.float32))
-    session.do(keys.accept(session.annotation, found, TRACKER))
-    session.select_track(next(iter(found)))
 
 
 def test_the_whole_path_with_mouse_and_keys(workspace, qtbot, tmp_path, monkeypatch):
