@@ -73,14 +73,17 @@ def make_prior(folder: Path, times: Times, hear: Callable[[str, Progress], None]
 def description(prior: EmbeddedPrior, times: Times, states: dict[str, dict[str, Any]]) -> dict[str, Any]:
     """What the file says about itself: origin, training, the table on the frozen test set.
 
-    states: by part, the state's `steps` and `seconds`, earlier runs included.
+    states: by part, the state's `steps` and `seconds`, earlier runs included; what the file that training started from
+    had seen is added.
     """
+    before = {} if times.start is None else weights.describe(times.start)
+    seen, spent = before.get("objects_seen", {}), before.get("seconds", {})
     return {
         "program": f"genmojo {__version__}", "licence": "as the program's",
         "data": "procedural objects of this program only; no third-party image, mesh or weight",
         "generator": generator.VERSION, "test_set": recorded()["sha256"], "seed": times.seed,
-        "objects_seen": {part: int(state["steps"]) * times.objects for part, state in states.items()},
-        "seconds": {part: round(float(state["seconds"]), 1) for part, state in states.items()},
+        "objects_seen": {p: int(s["steps"]) * times.objects + seen.get(p, 0) for p, s in states.items()},
+        "seconds": {p: round(float(s["seconds"]) + spent.get(p, 0.0), 1) for p, s in states.items()},
         "sigma": [2.718281828**level for level in LOG_SIGMA],
         "held_out": {name: {k: round(v, 3) for k, v in row.items()} for name, row in table(prior.volume).items()},
     }  # fmt: skip
