@@ -79,6 +79,7 @@ class RunConfig:
     prior: str = "none"  # embedded, none, zero123:DIR or zeronvs:DIR
     prior_mode: Literal["auto", "sds", "x0", "pseudo"] = "auto"  # priors/sds.py; auto: pseudo if it can, else sds
     prior_scope: Literal["object", "scene"] = "object"  # what the prior is shown: one object, or all as one
+    view_range: float = 180.0  # degrees round every frame's camera that the user may want to look from
     prior_views: int = 4  # views per object and step
     prior_objects: int = 1  # objects per step that are shown to the prior; 0 = all
     method: str = "genmojo"
@@ -165,6 +166,7 @@ _RANGES: dict[str, tuple[float, float]] = {
     "held_out_share": (0.0, 0.5),
     "held_out_every": (0, 1000),
     "checkpoint_seconds": (0.1, math.inf),
+    "view_range": (0.0, 180.0),
     "prior_views": (1, 64),
     "prior_objects": (0, 255),
     "seed": (0, 2**31 - 1),

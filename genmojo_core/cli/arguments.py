@@ -83,7 +83,8 @@ def add_clip_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--masks", metavar="FILE.npz", help="masks corrected in genmojo-studio, instead of the clip's")
     parser.add_argument("--tracks", metavar="NPZ", help="annotated point tracks that the scene shall follow (as "
                         "`genmojo export PROJECT --to tracks` writes them) instead of CLIP/tracks.npz")  # fmt: skip
-    parser.add_argument("--effects", default="auto", metavar="auto|+a,-b", help="switch effects on or off by hand")
+    parser.add_argument("--effects", default="auto", metavar="auto|all|+a,-b", help="switch effects on or off by "
+                        "hand; all: every effect that the clip allows")  # fmt: skip
 
 
 def add_config_options(parser: argparse.ArgumentParser) -> None:
@@ -101,6 +102,8 @@ def add_config_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--device", default="auto", help="auto, cpu or cuda")
     parser.add_argument("--prior", metavar="embedded|none|zero123:DIR",
                         help="what draws sides that no frame shows (also zeronvs:DIR)")  # fmt: skip
+    parser.add_argument("--view-range", type=float, metavar="DEG", help="how far round the camera the scene will be "
+                        "looked at (180: all round); sides beyond are not asked of the prior")  # fmt: skip
     parser.add_argument("--method", metavar="NAME", help="genmojo, or what it is compared with: dreamscene4d, "
                         "dreamgaussian4d, shape-of-motion")  # fmt: skip
     parser.add_argument("--prior-mode", metavar="auto|pseudo|x0|sds", help="how the prior is followed")
@@ -111,7 +114,7 @@ def config_changes(args: argparse.Namespace) -> dict[str, Any]:
     changes: dict[str, Any] = {"seed": args.seed, "device": args.device, "ignore": args.ignore}
     changes |= {
         name: getattr(args, name)
-        for name in ("prior", "prior_mode", "method", "until")
+        for name in ("prior", "prior_mode", "method", "until", "view_range")
         if getattr(args, name) is not None
     }
     if args.size is not None:

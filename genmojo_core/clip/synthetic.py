@@ -66,7 +66,7 @@ def generate(what: SyntheticSpec | str) -> tuple[Clip, Truth]:
         what = spec(what)
     if what.frames < 1 or not what.shapes or min(what.size) < 1:
         raise GenmojoError("argument", "a procedural clip needs at least one frame, one pixel and one shape", what.name)
-    stage = _Stage(what)
+    stage = Stage(what)
     frames = np.empty((what.frames, what.size[1], what.size[0], 3), np.uint8)
     hits = []
     for t in range(what.frames):
@@ -78,11 +78,11 @@ def generate(what: SyntheticSpec | str) -> tuple[Clip, Truth]:
 
 def novel_view(what: SyntheticSpec, t: int, elevation: float, azimuth: float) -> np.ndarray:
     """(H, W, 4) uint8 RGBA, straight alpha, of the objects alone in frame t from any view (conventions.py)."""
-    stage = _Stage(what)
+    stage = Stage(what)
     return stage.objects_alone(t, stage.novel_pose(t, elevation, azimuth))
 
 
-class _Stage:
+class Stage:
     """A spec with its matrices and cameras worked out for every frame."""
 
     def __init__(self, what: SyntheticSpec) -> None:
@@ -148,6 +148,7 @@ class _Stage:
 def _clip(what: SyntheticSpec, frames: np.ndarray, truth: Truth) -> Clip:
     """The clip as a reader would give it."""
     count = what.frames
+    first = np.unique(what.object_of(), return_index=True)[1]
     everywhere = np.ones(frames.shape[:3], bool)
     cameras = Cameras(np.repeat(truth.K[None], count, axis=0), truth.world_to_camera, what.size)
     carried: dict[str, Any] = {
@@ -163,17 +164,17 @@ def _clip(what: SyntheticSpec, frames: np.ndarray, truth: Truth) -> Clip:
         seconds=np.arange(count) / what.fps,
         source_names=tuple(f"{t:05d}.jpg" for t in range(count)),
         source_size=what.size,
-        object_ids=np.arange(1, len(what.shapes) + 1),
-        object_names=tuple(f"{shape.kind} {k}" for k, shape in enumerate(what.shapes, 1)),
+        object_ids=np.arange(1, len(first) + 1),
+        object_names=tuple(f"{what.shapes[shape].kind} {k}" for k, shape in enumerate(first, 1)),
         masks=Channel(truth.labels, everywhere, "given: procedural"),
         world_up=UP if "cameras" in what.given else np.array([0.0, -1.0, 0.0]),
         **{name: carried[name] for name in what.given},
     )
 
 
-def _truth(stage: _Stage, hits: list[Hits]) -> Truth:
+def _truth(stage: Stage, hits: list[Hits]) -> Truth:
     """Everything but the pictures."""
-    what = stage.what
+    what, objects = stage.what, stage.what.object_of()
     flow, flow_valid = _flow(stage, hits)
     owners, points = _material_points(stage, hits)
     tracks, state, xyz = _carried(stage, owners, points)
@@ -185,7 +186,9 @@ def _truth(stage: _Stage, hits: list[Hits]) -> Truth:
             novel[a, f] = stage.objects_alone(int(t), poses[a, t])
     return Truth(
         depth=np.stack([h.depth for h in hits]).astype(np.float32),
-        labels=np.stack([np.maximum(h.owner + 1, 0) for h in hits]).astype(np.uint8),
+        labels=np.stack([np.where(h.owner >= 0, objects[np.maximum(h.owner, 0)] + 1, 0) for h in hits]).astype(
+            np.uint8
+        ),
         K=stage.views[0].K,
         world_to_camera=np.stack([v.world_to_camera for v in stage.views]),
         flow=flow,
@@ -193,7 +196,7 @@ def _truth(stage: _Stage, hits: list[Hits]) -> Truth:
         tracks=tracks,
         visible=state == VISIBLE,
         state=state,
-        track_object=owners + 1,
+        track_object=objects[owners] + 1,
         track_xyz=xyz,
         novel_angles=np.array(ANGLES),
         novel_world_to_camera=poses,
@@ -203,7 +206,7 @@ def _truth(stage: _Stage, hits: list[Hits]) -> Truth:
     )
 
 
-def _flow(stage: _Stage, hits: list[Hits]) -> tuple[np.ndarray, np.ndarray]:
+def _flow(stage: Stage, hits: list[Hits]) -> tuple[np.ndarray, np.ndarray]:
     """Where each pixel's material point is in the next frame, minus where it is."""
     width, height = stage.what.size
     flow = np.zeros((len(hits), height, width, 2), np.float32)
@@ -218,8 +221,8 @@ def _flow(stage: _Stage, hits: list[Hits]) -> tuple[np.ndarray, np.ndarray]:
     return flow, valid
 
 
-def _material_points(stage: _Stage, hits: list[Hits]) -> tuple[np.ndarray, np.ndarray]:
-    """Owners (P,) and material points (P, 3): of each object, half seen in frame 0, the rest at other times."""
+def _material_points(stage: Stage, hits: list[Hits]) -> tuple[np.ndarray, np.ndarray]:
+    """Owners (P,) and material points (P, 3): of each shape, half seen in frame 0, the rest at other times."""
     random = np.random.default_rng(stage.what.seed)
     owners, points = [], []
     for k in range(len(stage.what.shapes)):
@@ -233,7 +236,7 @@ def _material_points(stage: _Stage, hits: list[Hits]) -> tuple[np.ndarray, np.nd
     return np.array(owners, np.int64), np.array(points).reshape(-1, 3)
 
 
-def _carried(stage: _Stage, owners: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _carried(stage: Stage, owners: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(P, T, 2) pixels, (P, T) states and (P, T, 3) world places of material points in every frame."""
     count, frames = len(owners), stage.what.frames
     xy, xyz = np.zeros((count, frames, 2)), np.zeros((count, frames, 3))

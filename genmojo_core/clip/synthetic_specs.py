@@ -16,7 +16,8 @@ class SyntheticSpec:
     """What to make; world units, z up, ground z = 0.
 
     Args:
-        name: of the clip. shapes: the objects; object k has id k + 1. frames: T. size: (width, height) in pixels.
+        name: of the clip. shapes: solids. frames: T. size: (width, height) in pixels.
+        parts: object of each shape, 0.. without gaps, object k has id k + 1; empty: every shape is one of its own.
         eye: camera centres at the clip's start and end. target: what it looks at.
         focal: focal length in image widths. wall: y of the wall. light: strength of the light at start and end.
         given: channels that the clip itself carries, of "depth", "cameras", "flow".
@@ -38,6 +39,11 @@ class SyntheticSpec:
     fps: float = 24.0
     seed: int = 0
     novel_every: int = 3
+    parts: tuple[int, ...] = ()
+
+    def object_of(self) -> np.ndarray:
+        """(S,) int64: index of the object that each shape belongs to."""
+        return np.array(self.parts or range(len(self.shapes)), np.int64)
 
 
 def spec(name: str) -> SyntheticSpec:

@@ -12,9 +12,11 @@ from genmojo_core.effects.costs import predict, run_sizes
 from genmojo_core.effects.evidence import Evidence, measure
 from genmojo_core.effects.plan import Effect, EffectName, EffectPlan
 from genmojo_core.effects.shape import RIGID_MODE, RIGID_OUTLINE
+from genmojo_core.effects.sides import unseen_share
 from genmojo_core.errors import GenmojoError
 
 NAMES: tuple[str, ...] = get_args(EffectName)
+ALL = "all"  # in overrides: every effect that the clip allows
 FEWEST_BASES = 4  # motion bases of an object that bends a little; one that bends much gets all of the preset
 
 
@@ -40,7 +42,8 @@ def plan(clip: Clip, config: RunConfig, overrides: Mapping[str, bool] | None = N
 
     Args:
         clip: every channel present (estimate.complete). config: sizes and prior of the run.
-        overrides: effects that the user switches on or off whatever the evidence says.
+        overrides: effects that the user switches on or off whatever the evidence says; ALL stands for every effect
+            not named, those that this clip or run cannot do left out.
 
     Raises:
         GenmojoError("argument"): an override that names no effect or that this clip or run cannot do.
@@ -56,12 +59,15 @@ def plan(clip: Clip, config: RunConfig, overrides: Mapping[str, bool] | None = N
         on = rule.value >= rule.threshold and not rule.lacking
         effect = Effect(cast(EffectName, name), on, rule.value, rule.unit, rule.threshold, rule.origin, rule.reason,
                         ms, mb)  # fmt: skip
-        effects.append(_overridden(effect, overrides.get(name), rule.lacking))
-    return EffectPlan(tuple(_with_bases(effect, config) for effect in effects))
+        wanted = overrides.get(name, None if rule.lacking else overrides.get(ALL))
+        effects.append(_overridden(effect, wanted, rule.lacking))
+    return EffectPlan(tuple(with_bases(effect, config.motion_bases, effect.evidence) for effect in effects))
 
 
 def parse_overrides(text: str) -> dict[str, bool]:
     """{"appearance_change": True, "unseen_views": False} for "+appearance_change,-unseen_views"; {} for "auto" or "".
+
+    "all" switches on every effect that the clip allows ({ALL: True}); others may follow: "all,-flow".
 
     Raises GenmojoError("argument") for a name that is no effect, a missing sign, or + and - for the same effect.
     """
@@ -69,8 +75,13 @@ def parse_overrides(text: str) -> dict[str, bool]:
     for item in (part.strip() for part in text.split(",")):
         if item in ("", "auto"):
             continue
+        if item == ALL:
+            result[ALL] = True
+            continue
         if item[0] not in "+-":
-            raise GenmojoError("argument", f"'{item}' says neither + nor -", "--effects", f"write +{item} or -{item}")
+            raise GenmojoError(
+                "argument", f"'{item}' says neither + nor -", "--effects", f"write +{item} or -{item}, auto or all"
+            )
         name, on = item[1:].strip(), item[0] == "+"
         if result.get(name, on) != on:
             raise GenmojoError("argument", f"'{name}' is switched both on and off", "--effects", "choose one")
@@ -81,7 +92,7 @@ def parse_overrides(text: str) -> dict[str, bool]:
 
 def _check_names(overrides: Mapping[str, bool]) -> None:
     """Raise GenmojoError("argument") for names that are no effects."""
-    unknown = [name for name in overrides if name not in NAMES]
+    unknown = [name for name in overrides if name not in (*NAMES, ALL)]
     if unknown:
         raise GenmojoError("argument", f"there is no effect {', '.join(repr(name) for name in unknown)}", "--effects",
                            f"use {', '.join(NAMES)}")  # fmt: skip
@@ -98,12 +109,11 @@ def _overridden(effect: Effect, wanted: bool | None, lacking: str) -> Effect:
     return replace(effect, on=wanted, overridden=True, reason=said)
 
 
-def _with_bases(effect: Effect, config: RunConfig) -> Effect:
-    """Motion bases in proportion to how much the objects bend; none when they do not."""
+def with_bases(effect: Effect, most: int, amount: float) -> Effect:
+    """Non-rigid motion with motion bases in proportion to how much the objects bend; none when they do not."""
     if effect.name != "non_rigid_motion":
         return effect
-    most = config.motion_bases
-    bases = min(most, max(min(FEWEST_BASES, most), round(FEWEST_BASES * effect.evidence))) if effect.on else 0
+    bases = min(most, max(min(FEWEST_BASES, most), round(FEWEST_BASES * amount))) if effect.on else 0
     return replace(effect, settings={"motion_bases": bases})
 
 
@@ -112,9 +122,20 @@ def _with_bases(effect: Effect, config: RunConfig) -> Effect:
 
 def _joint_occlusion(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
     percent = 100 * evidence.contact
-    said = f"Two objects touch in {percent:.0f} % of the frames" if percent else "No two objects ever touch"
+    said = _covers(clip, evidence) if evidence.covers else "No two objects ever touch"
     return Rule(percent, "% of frames", 100 / max(len(clip), 1) - 1e-6, "one frame of contact is enough to hide",
                 f"{said}.")  # fmt: skip
+
+
+def _covers(clip: Clip, evidence: Evidence) -> str:
+    """The longest cover in words, and how many there are besides."""
+    longest = max(evidence.covers, key=lambda cover: len(cover.frames))
+    front, back = (clip.object_names[k] for k in (longest.front, longest.back))
+    first, last = longest.frames[0], longest.frames[-1]
+    when = f"frame {first}" if first == last else f"frames {first} to {last}"
+    more = len(evidence.covers) - 1
+    besides = f", and {more} more such {'pair' if more == 1 else 'pairs'}" if more else ""
+    return f"'{front}' covers '{back}' where they touch ({when}){besides}"
 
 
 def _background(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
@@ -153,8 +174,10 @@ def _appearance_change(clip: Clip, config: RunConfig, evidence: Evidence) -> Rul
 
 def _unseen_views(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
     installed = config.prior != "none"
-    said = f"The prior {config.prior} draws the sides never seen." if installed else "No prior is installed."
-    return Rule(float(installed), "priors", 1.0, "only a prior knows unseen sides", said,
+    percent = 100 * max((unseen_share(sight, config.view_range) for sight in evidence.sights), default=0.0)
+    said = f"Looked at from up to {config.view_range:.0f} degrees aside, {percent:.0f} % of an object was never seen"
+    said += f"; the prior {config.prior} draws it." if installed else ", and no prior is installed to draw it."
+    return Rule(percent, "% of a view", 10.0, "the rim's own Gaussians close less than a tenth", said,
                 "" if installed else "no prior is installed")  # fmt: skip
 
 

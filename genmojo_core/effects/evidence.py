@@ -10,6 +10,8 @@ import numpy as np
 from genmojo_core.clip.clip import Clip
 from genmojo_core.effects.light import light_change
 from genmojo_core.effects.objects import ObjectFacts, describe
+from genmojo_core.effects.occlusion import Cover, occlusion_graph
+from genmojo_core.effects.rigid import rigid_fit
 from genmojo_core.effects.sample import SHORT_SIDE, sample
 from genmojo_core.effects.shape import Bending, bending
 from genmojo_core.estimate.views import carry
@@ -26,6 +28,7 @@ class Evidence:
 
     Args:
         contact: share of frames in which two objects lie within 2 pixels.
+        covers: who covers whom, and when.
         background: share of pixels outside all objects.
         camera: largest median shift of the background between frame 0 and another by the camera alone, pixels.
         bending: per object, how far it is from rigid.
@@ -35,10 +38,12 @@ class Evidence:
         flow: share of the objects' pixels with a valid flow (0 for a single frame).
         corners: usual number of corners per object that flow follows (tracks of one's own count as they are).
         hidden: most frames in a row in which an object is hidden between two in which it is seen.
+        sights: per object, (T, 3, 3) rotations from the object as in frame 0 to the camera, as far as flow tells.
         facts: what is known about each object (at the measured size).
     """
 
     contact: float
+    covers: tuple[Cover, ...]
     background: float
     camera: float
     bending: tuple[Bending, ...]
@@ -48,6 +53,7 @@ class Evidence:
     flow: float
     corners: float
     hidden: int
+    sights: tuple[np.ndarray, ...]
     facts: tuple[ObjectFacts, ...]
 
 
@@ -61,6 +67,7 @@ def measure(clip: Clip) -> Evidence:
     strong = light.objects[light.objects >= OBJECT_LIGHT]
     return Evidence(
         contact=float(contact.mean()),
+        covers=occlusion_graph(small),
         background=float((labels == 0).mean()),
         camera=camera_shift(small) * SHORT_SIDE / min(small.size),
         bending=tuple(bending(small, k, facts[k]) for k in range(small.objects)),
@@ -70,6 +77,7 @@ def measure(clip: Clip) -> Evidence:
         flow=_share_inside(labels[:-1], None if small.flow is None else small.flow.valid[:-1]),
         corners=trackable(small, labels),
         hidden=max((longest_gap(one.visibility) for one in facts), default=0),
+        sights=tuple(rigid_fit(small, k).sight for k in range(small.objects)),
         facts=facts,
     )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 EffectName = Literal[
@@ -22,6 +22,7 @@ class Effect:
         origin: where the threshold comes from. reason: one plain sentence.
         ms_per_step, mb: predicted cost when on. overridden: the user decided, not the evidence.
         settings: numbers that go with it, e.g. {"motion_bases": 6}.
+        measured_ms, measured_mb: what it did cost per step and in memory, once a run has measured it.
     """
 
     name: EffectName
@@ -35,6 +36,8 @@ class Effect:
     mb: float = 0.0
     overridden: bool = False
     settings: Mapping[str, float] | None = None
+    measured_ms: float | None = None
+    measured_mb: float | None = None
 
 
 @dataclass(frozen=True)
@@ -53,6 +56,11 @@ class EffectPlan:
             if effect.name == name:
                 return effect
         raise KeyError(name)
+
+    def changed(self, name: EffectName, **changes: Any) -> EffectPlan:
+        """The plan with fields of one effect replaced; KeyError for a name that is none."""
+        new = replace(self.get(name), **changes)
+        return EffectPlan(tuple(new if effect.name == name else effect for effect in self.effects))
 
     def to_json(self) -> list[dict[str, Any]]:
         """Plain data, as `genmojo effects --json` prints it."""

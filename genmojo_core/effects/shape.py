@@ -16,6 +16,7 @@ import cv2
 import numpy as np
 
 from genmojo_core.clip.clip import Clip
+from genmojo_core.effects.follow import follow
 from genmojo_core.effects.objects import ObjectFacts
 
 # Limits of what rigid objects show, each between the rigid and the bending objects of the shared Blender clips.
@@ -80,37 +81,10 @@ def _fourth_mode(clip: Clip, k: int) -> float:
     masks = clip.object_mask(k)
     values = []
     for start in _starts(len(clip) - window + 1):
-        tracks = _follow(masks, clip.flow.value, clip.flow.valid, range(start, start + window))
+        tracks = follow(masks, clip.flow.value, clip.flow.valid, range(start, start + window), _MOST_POINTS)
         if len(tracks) >= _FEWEST_POINTS:
             values.append(fourth_mode(tracks))
     return float(np.percentile(values, 90)) if values else math.nan
-
-
-def _follow(masks: np.ndarray, flow: np.ndarray, valid: np.ndarray, frames: range) -> np.ndarray:
-    """Tracks (P, F, 2) of points carried by the flow that stay inside the object and where the flow holds."""
-    inner = {t: cv2.erode(masks[t].astype(np.uint8), np.ones((3, 3), np.uint8)).astype(np.float32) for t in frames}
-    y, x = np.nonzero(inner[frames[0]])
-    chosen = np.linspace(0, len(x) - 1, min(len(x), _MOST_POINTS)).astype(int)
-    points = np.stack([x[chosen], y[chosen]], axis=1).astype(np.float64)
-    tracks, good = [points], np.ones(len(points), bool)
-    for t in frames[:-1]:
-        good &= _bilinear(valid[t].astype(np.float32)[..., None], points)[:, 0] > 0.9
-        points = points + _bilinear(flow[t], points)
-        good &= _bilinear(inner[t + 1][..., None], points)[:, 0] > 0.5
-        tracks.append(points)
-    return np.stack(tracks, axis=1)[good]
-
-
-def _bilinear(image: np.ndarray, points: np.ndarray) -> np.ndarray:  # (H, W, C), (P, 2) pixel indices -> (P, C)
-    """Values between pixels; places outside take the border's."""
-    h, w = image.shape[:2]
-    x, y = np.clip(points[:, 0], 0, w - 1), np.clip(points[:, 1], 0, h - 1)
-    i, j = np.minimum(x.astype(int), max(w - 2, 0)), np.minimum(y.astype(int), max(h - 2, 0))
-    a, b = (x - i)[:, None], (y - j)[:, None]
-    right, down = np.minimum(i + 1, w - 1), np.minimum(j + 1, h - 1)
-    return (1 - b) * ((1 - a) * image[j, i] + a * image[j, right]) + b * (
-        (1 - a) * image[down, i] + a * image[down, right]
-    )
 
 
 def _outline_change(clip: Clip, k: int, facts: ObjectFacts) -> float:

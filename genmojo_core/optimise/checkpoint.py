@@ -88,6 +88,11 @@ def load(folder: Path, scene: Scene4D, optimiser: torch.optim.Optimizer) -> tupl
     return dict(header["meta"]), extra
 
 
+def peek(folder: Path) -> dict[str, Any]:
+    """The saved `meta` alone. Raises as `load`."""
+    return dict(_read(folder)[0]["meta"])
+
+
 def exists(folder: Path) -> bool:
     """True if the run folder holds a checkpoint."""
     return (folder / "checkpoint.json").is_file()

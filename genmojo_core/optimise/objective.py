@@ -43,12 +43,13 @@ class HeldOut:
 
 @dataclass
 class Outcome:
-    """Loss of one micro-batch, its weighted parts, and errors on held-out and foreground pixels."""
+    """Loss of one micro-batch, its weighted parts, errors on held-out and foreground pixels, and light."""
 
     loss: Tensor
     parts: dict[str, float]
     held_out: list[HeldOut]
     foreground: list[tuple[int, float]]  # frame, PSNR in dB
+    light: list[tuple[int, Tensor, Tensor]]  # frame, mean colour shown and wanted (3,) where something is drawn
 
 
 class Objective:
@@ -66,7 +67,8 @@ class Objective:
         self.scene, self.targets, self.weights, self.splat = scene, targets, weights, splat
         self.tracks = tracks if plan.on("track_supervision") else []
         self.labels = scene.layout.labels > 1
-        self.order = plan.on("depth_order") and self.labels
+        self.depth = plan.on("depth_order")
+        self.order = self.depth and self.labels and plan.on("joint_occlusion")
         self.count = neighbours
         self.frames = len(targets)
         self.refresh_neighbours()
@@ -79,11 +81,11 @@ class Objective:
 
     def evaluate(self, frames: list[int], deform: bool, generator: torch.Generator) -> Outcome:
         """All terms over some frames; the mean over frames, regularisers once."""
-        pairs = deform or self.scene.layout.flow
+        pairs = self.scene.layout.flow or (deform and any(o.field is not None for o in self.scene.objects))
         needed = sorted({*frames, *(min(t + 1, self.frames - 1) for t in frames)}) if pairs else frames
         states = dict(zip(needed, self.scene.states(needed, deform), strict=True))
         terms: dict[str, Tensor] = {}
-        held_out, foreground = [], []
+        held_out, foreground, light = [], [], []
         for t in frames:
             after = states.get(t + 1)
             target = self.targets.frame(t)
@@ -92,7 +94,9 @@ class Objective:
                 similar = losses.similarity(rendering, target)
             for name, value in self._data_terms(t, states[t], rendering, target, similar).items():
                 terms[name] = terms.get(name, 0.0) + value / len(frames)
-            squared = ((rendering.features[..., :3].detach() - target.rgb) ** 2).mean(-1)
+            shown = rendering.features[..., :3].detach()
+            light.append((t, *_levels(shown, target)))
+            squared = ((shown - target.rgb) ** 2).mean(-1)
             cut = target.held_out
             held_out.append(HeldOut(t, float(squared[cut].sum()), float(similar.detach()[cut].sum()), int(cut.sum())))
             inside = target.labels > 0
@@ -103,7 +107,7 @@ class Objective:
                 terms[name] = value
         weighted = {name: getattr(self.weights, name) * value for name, value in terms.items()}
         loss = torch.stack(list(weighted.values())).sum()
-        return Outcome(loss, {n: float(v.detach()) for n, v in weighted.items()}, held_out, foreground)
+        return Outcome(loss, {n: float(v.detach()) for n, v in weighted.items()}, held_out, foreground, light)
 
     def picture(self, t: int, deform: bool) -> Tensor:
         """Colours (H, W, 3) of frame t as the scene stands, whether or not the frame is in any loss."""
@@ -137,8 +141,9 @@ class Objective:
         terms = {
             "rgb": losses.color_loss(rendering, target, inside, self.scene.background is not None),
             "alpha": losses.coverage_loss(rendering, layout, target, inside),
-            "depth": losses.depth_loss(rendering, layout, target),
         }
+        if self.depth:
+            terms["depth"] = losses.depth_loss(rendering, layout, target)
         if self.compares_windows:
             terms["ssim"] = losses.similarity_loss(similar, target, inside)
         if now:
@@ -167,8 +172,7 @@ class Objective:
     ) -> dict[str, Tensor]:
         """Regularisers over pairs of frames, and the tracks."""
         zero = self.scene.w2c.sum() * 0.0
-        names = ("rigidity", "rotation", "local_scale", "delta_scale", "delta_color", "smooth")
-        terms = dict.fromkeys(names, zero)
+        terms = {"smooth": zero}
         objects = len(self.scene.objects)
         for k, (model, near) in enumerate(zip(self.scene.objects, self.neighbours, strict=True)):
             terms["smooth"] = terms["smooth"] + model.placement.smoothness() * self.frames / objects
@@ -185,9 +189,9 @@ class Objective:
                 if after is not None:
                     values += [*rigidity(now, after[k], near, rows)]
                 for name, value in zip(("local_scale", "delta_scale", "rigidity", "rotation"), values, strict=False):
-                    terms[name] = terms[name] + share * value
+                    terms[name] = terms.get(name, zero) + share * value
                 if now.deformation.d_dc is not None:
-                    terms["delta_color"] = terms["delta_color"] + share * now.deformation.d_dc.abs().mean()
+                    terms["delta_color"] = terms.get("delta_color", zero) + share * now.deformation.d_dc.abs().mean()
         if self.tracks:
             terms["tracks"] = self._track_term(frames)
         return terms
@@ -205,3 +209,10 @@ class Objective:
                 value = losses.track_loss(pixels, tracks.xy[:, t], tracks.conf[:, t], diagonal)
                 total = total + value / (len(frames) * len(self.tracks))
         return total
+
+
+def _levels(shown: Tensor, target: FrameTargets) -> tuple[Tensor, Tensor]:
+    """Mean colours (3,) of a picture and of its target over the pixels that count."""
+    total = target.seen.sum().clamp(min=1.0)
+    return ((shown * target.seen[..., None]).sum((0, 1)) / total,
+            (target.rgb * target.seen[..., None]).sum((0, 1)) / total)  # fmt: skip

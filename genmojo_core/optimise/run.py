@@ -32,10 +32,11 @@ from genmojo_core.events import (
     StageStarted,
     Warned,
 )
-from genmojo_core.optimise import checkpoint, density, parameters
+from genmojo_core.optimise import call_in, checkpoint, density, parameters
 from genmojo_core.optimise.absences import out_of_view
 from genmojo_core.optimise.annotated import with_annotated
 from genmojo_core.optimise.bake import Provenance, bake
+from genmojo_core.optimise.cost import with_costs
 from genmojo_core.optimise.deadline import Deadline
 from genmojo_core.optimise.first_poses import Moves, first_poses, usable_motion
 from genmojo_core.optimise.guard import Guard
@@ -44,6 +45,7 @@ from genmojo_core.optimise.lift import Lifted, lift, track_supervision
 from genmojo_core.optimise.live import LiveFrame, live_frame
 from genmojo_core.optimise.motion import ObjectMotion, initial_motion
 from genmojo_core.optimise.objective import Objective, Outcome, TrackSupervision
+from genmojo_core.optimise.planned import planned_clip
 from genmojo_core.optimise.progress import Clock, Progress
 from genmojo_core.optimise.schedule import (
     Stage,
@@ -67,6 +69,7 @@ PREVIEW_EVERY = 25  # steps
 MOTION_SHARE = 0.4  # of the budget
 PACE_EVERY = 5  # steps
 CURVE = "curve.jsonl"  # in the run folder: the curve, a row a line
+COST_STEP = 40  # steps of the joint stage after which the effects' costs are measured; shorter stages measure none
 
 
 class Run:
@@ -93,7 +96,7 @@ class Run:
     ) -> None:  # fmt: skip
         self.held = held_frames(len(clip), config.held_out_every)
         self.space = working_space(clip)
-        self.whole = self.space.inside(clip)
+        self.whole = self.space.inside(planned_clip(clip, plan))
         self.clip = without(self.whole, self.held)
         self.plan, self.config = plan, config
         self.run_dir = None if run_dir is None else Path(run_dir)
@@ -105,6 +108,7 @@ class Run:
         self.stopped = False
         self.goal = False
         self.unseen: UnseenViews | None = None
+        self.light_called_in = False
         self.step_limit: int | None = None
         self.changes: list[ParameterChanged] = []
 
@@ -214,10 +218,13 @@ class Run:
         for message in doubts:
             yield Warned(*self.clock.now(), "motion_not_found", message)
         motions = with_annotated(self.clip, out_of_view(self.clip, motions))
+        self.plan, reason = call_in.bending(self.clip, self.plan, motions, self.config.motion_bases)
+        if reason:
+            yield EffectChanged(*self.clock.now(), "non_rigid_motion", True, reason)
         lifted = lift(self.clip, self.plan, self.config, motions)
         for message in lifted.warnings:
             yield Warned(*self.clock.now(), "object_not_visible", message)
-        self._build(lifted, track_supervision(lifted, motions))
+        self._build(lifted, track_supervision(lifted, motions) if self.plan.on("track_supervision") else [])
         yield from self._ask_prior(lifted, motions)
         self._start()
         yield Preview(*self.clock.now(), "motion", self.progress.step, self.reference, self._reference_psnr())
@@ -267,6 +274,9 @@ class Run:
 
     def _start(self) -> None:
         """Optimiser and guard, and the checkpoint if there is one to resume."""
+        self.watch = call_in.light_watch(self)
+        if self.resume and self.run_dir is not None and checkpoint.peek(self.run_dir).get("light_called_in"):
+            call_in.simulate_light(self, "changing light was called in before the run was interrupted")
         self.optimiser = make_optimiser(self.scene, self.config)
         if self.resume and self.run_dir is not None:
             meta, state = checkpoint.load(self.run_dir, self.scene, self.optimiser)
@@ -304,9 +314,10 @@ class Run:
             if self.progress.advance(outcome):
                 self.add_point()
             yield self.progress.event(self.clock, len(self.scene))
-            reason = self._objection(stage)
-            if reason:
-                yield EffectChanged(*self.clock.now(), "unseen_views", False, reason)
+            yield from call_in.change_effects(self, stage, outcome)
+            if stage.deform and i == COST_STEP:
+                frames = list(range(min(self.config.frames_per_step, len(self.clip))))
+                self.plan = with_costs(self.plan, self.objective, frames)
             if i % self.config.densify_every == 0 and i < 0.8 * stage.steps:
                 self._control_density()
             if self.progress.step % SNAPSHOT_EVERY == 0:
@@ -320,18 +331,6 @@ class Run:
                 yield from self._checkpoint()
             if self._over():
                 return
-
-    def _objection(self, stage: Stage) -> str:
-        """Why the prior was just switched off, its Gaussians with it; empty if it was not."""
-        if self.unseen is None or not stage.deform:
-            return ""
-        reason = self.unseen.objection(self.objective, self.progress.fraction(self.clock))
-        if reason:
-            self.unseen = None
-            for gaussians, _ in self.statistics:
-                density.keep_only(gaussians, ~gaussians.invented, self.optimiser)
-            self._after_change()
-        return reason
 
     def _step(self, stage: Stage, i: int) -> Outcome:
         """One optimiser step."""
@@ -361,9 +360,9 @@ class Run:
         """Grow and prune every object's Gaussians; the background keeps its own."""
         for gaussians, statistics in self.statistics:
             density.control(gaussians, statistics, self.config.gaussians_per_object, self.optimiser, self.generator)
-        self._after_change()
+        self.after_change()
 
-    def _after_change(self) -> None:
+    def after_change(self) -> None:
         """What depends on which Gaussians there are."""
         self.objective.refresh_neighbours()
         self._new_statistics()
@@ -382,7 +381,8 @@ class Run:
             return
         wall, cpu = self.clock.now()
         meta = {**self.progress.state(), "seconds": wall, "cpu_seconds": cpu,
-                "generator": self.generator.get_state().tolist()}  # fmt: skip
+                "generator": self.generator.get_state().tolist(),
+                "light_called_in": self.light_called_in}  # fmt: skip
         path = checkpoint.save(self.run_dir, self.scene, self.optimiser, meta,
                                checkpoint.working_state(self.statistics, self.objective))  # fmt: skip
         self.progress.checkpointed(self.clock)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import torch
@@ -82,13 +83,15 @@ def make_optimiser(scene: Scene4D, config: RunConfig) -> torch.optim.AdamW:
     for name, parameter in scene.named_parameters():
         if parameter.requires_grad:
             groups.setdefault(_kind(name), []).append(parameter)
-    sizes = {kind: start_rate(kind, config.rates) for kind in groups}
-    rows = [
-        {"params": members, "lr": sizes[kind], "start_lr": sizes[kind], "kind": kind,
-         "weight_decay": 0.01 if kind in ("planes", "heads") else 0.0}
-        for kind, members in groups.items()
-    ]  # fmt: skip
+    rows = [group_of(kind, members, config) for kind, members in groups.items()]
     return torch.optim.AdamW(rows, eps=1e-15, betas=(0.9, 0.99), fused=True)
+
+
+def group_of(kind: str, members: list[torch.nn.Parameter], config: RunConfig) -> dict[str, Any]:
+    """One kind of parameters as a group of the optimiser."""
+    rate = start_rate(kind, config.rates)
+    decay = 0.01 if kind in ("planes", "heads") else 0.0
+    return {"params": members, "lr": rate, "start_lr": rate, "kind": kind, "weight_decay": decay}
 
 
 def start_rate(kind: str, rates: LearningRates) -> float:

@@ -180,7 +180,7 @@ class UnseenViews:
         placed = one.references[t]
         if t not in one.conditions:
             one.conditions[t] = self.prior.encode(placed.reference)
-        views = draw_views(rng, self.config.prior_views)
+        views = draw_views(rng, self.config.prior_views, self.config.view_range)
         self.seen += [(float(e), float(a), t) for e, a in zip(views.elevation, views.azimuth, strict=True)]
         pictures = self._render(one.models, placed, t, views, moment)
         level = float(rng.uniform(*levels(moment.share)))
@@ -287,10 +287,11 @@ def held_out_psnr(objective: Objective) -> float:
     return -10.0 * math.log10(max(error / count, 1e-10)) if count else 0.0
 
 
-def draw_views(rng: np.random.Generator, count: int) -> ViewOffsets:
-    """Elevation within 30 degrees, azimuth all round, no change of distance."""
-    elevation = torch.tensor(rng.uniform(-ELEVATION, ELEVATION, count), dtype=torch.float32)
-    azimuth = torch.tensor(rng.uniform(-180, 180, count), dtype=torch.float32)
+def draw_views(rng: np.random.Generator, count: int, view_range: float = 180.0) -> ViewOffsets:
+    """Azimuth within `view_range` degrees, elevation too but within 30 at most, no change of distance."""
+    rise = min(ELEVATION, view_range)
+    elevation = torch.tensor(rng.uniform(-rise, rise, count), dtype=torch.float32)
+    azimuth = torch.tensor(rng.uniform(-view_range, view_range, count), dtype=torch.float32)
     return ViewOffsets(elevation, azimuth, torch.zeros(count))
 
 

@@ -18,12 +18,15 @@ from hypothesis import strategies as st
 from genmojo_core.clip.cameras import Cameras
 from genmojo_core.clip.clip import Channel, Clip
 from genmojo_core.config import preset
+from genmojo_core.conventions import axis_angle_matrix
 from genmojo_core.effects.decide import NAMES, parse_overrides, plan
 from genmojo_core.effects.evidence import camera_shift, longest_gap, measure
 from genmojo_core.effects.light import light_change
 from genmojo_core.effects.objects import canonical_frame, describe
+from genmojo_core.effects.occlusion import occlusion_graph
 from genmojo_core.effects.sample import sample
 from genmojo_core.effects.shape import bending, fourth_mode
+from genmojo_core.effects.sides import unseen_share
 from genmojo_core.errors import GenmojoError
 
 SIDE, FRAMES = 128, 12
@@ -94,7 +97,7 @@ def test_rigid_objects_under_still_light_and_camera_call_for_little() -> None:
 
 
 def test_plan_has_every_effect_once_with_number_reason_and_cost() -> None:
-    decided = plan(two_crossing(), CONFIG)
+    decided = plan(two_crossing(), replace(CONFIG, prior="embedded"))
     assert tuple(effect.name for effect in decided.effects) == NAMES
     for effect in decided.effects:
         assert np.isfinite([effect.evidence, effect.threshold, effect.ms_per_step, effect.mb]).all(), effect
@@ -109,6 +112,19 @@ def test_crossing_objects_call_for_joint_occlusion() -> None:
     effect = plan(clip, CONFIG).get("joint_occlusion")
     touching = sum(abs(28 + 72 * t / 11 - (100 - 72 * t / 11)) <= 36 + 2 for t in range(FRAMES))
     assert effect.on and effect.evidence == pytest.approx(100 * touching / FRAMES, abs=9)
+
+
+def test_who_covers_whom_is_told_by_depth_and_without_it() -> None:
+    """The second square is in front (nearer, drawn over the first); both ways of telling agree on most frames."""
+    clip = two_crossing()
+    given = replace(clip, depth=replace(clip.depth, source="given: formula"))
+    touching = [t for t in range(FRAMES) if abs(28 + 72 * t / 11 - (100 - 72 * t / 11)) <= 36 + 2]
+    cover, *others = occlusion_graph(given)
+    assert not others and (cover.front, cover.back) == (1, 0) and set(touching) >= set(cover.frames) != set()
+    guessed = {c.front: len(c.frames) for c in occlusion_graph(clip)}
+    assert guessed.get(1, 0) > guessed.get(0, 0)
+    assert "'square 2' covers 'square 1'" in plan(given, CONFIG).get("joint_occlusion").reason
+    assert occlusion_graph(two_apart()) == ()
 
 
 def test_dimming_light_is_measured_and_called_for() -> None:
@@ -251,6 +267,8 @@ def test_overrides_win_and_are_recorded() -> None:
     ("text", "expected"),
     [
         ("auto", {}),
+        ("all", {"all": True}),
+        ("all,-flow", {"all": True, "flow": False}),
         ("", {}),
         (" +flow , -background ", {"flow": True, "background": False}),
         ("+flow,+flow", {"flow": True}),
@@ -258,6 +276,26 @@ def test_overrides_win_and_are_recorded() -> None:
 )
 def test_overrides_are_read(text: str, expected: dict[str, bool]) -> None:
     assert parse_overrides(text) == expected
+
+
+def test_all_switches_on_what_the_clip_allows_and_nothing_else() -> None:
+    decided = plan(two_apart(), CONFIG, parse_overrides("all,-flow"))
+    off = {effect.name for effect in decided.effects if not effect.on}
+    assert off == {"flow", "unseen_views"}  # by the user; no prior is installed
+    assert not decided.get("unseen_views").overridden and decided.get("camera_motion").overridden
+
+
+def test_views_that_are_never_asked_for_need_no_prior() -> None:
+    near, round_about = (replace(CONFIG, prior="embedded", view_range=degrees) for degrees in (5.0, 180.0))
+    assert not plan(two_apart(), near).on("unseen_views")
+    assert plan(two_apart(), round_about).get("unseen_views").evidence > 90
+
+
+@pytest.mark.parametrize(("turn", "view_range", "expected"), [(0, 180, 1.0), (0, 0, 0.03), (320, 180, 0.0)])
+def test_share_never_seen_of_a_ball(turn: float, view_range: float, expected: float) -> None:
+    """The back of a still ball is all unseen; one that turned round has shown all but its poles."""
+    sight = np.stack([axis_angle_matrix(np.array([0.0, 1.0, 0.0]), a) for a in np.linspace(0, turn, 9)])
+    assert unseen_share(sight, view_range) == pytest.approx(expected, abs=0.08)
 
 
 @pytest.mark.parametrize(

@@ -94,25 +94,6 @@ def test_the_budget_ends_a_run(clip: Clip) -> None:
     assert events[-1].step < 100_000
 
 
-def test_effects_that_are_off_allocate_nothing(clip: Clip) -> None:
-    off = small_run(clip, dict.fromkeys(
-        ("background", "non_rigid_motion", "appearance_change", "instance_labels", "flow", "track_supervision"), False
-    ))  # fmt: skip
-    next(e for e in off if isinstance(e, Preview) and e.stage == "motion")
-    scene = off.scene
-    assert scene.background is None
-    assert scene.gain is None
-    assert all(o.field is None for o in scene.objects)
-    assert scene.layout.channels == 4  # colour and one coverage channel
-    assert off.objective.tracks == []
-    parts = off.objective.evaluate([1], True, off.generator).parts
-    assert not {"labels", "flow", "tracks", "depth_order"} & set(parts)
-    on = small_run(clip, {**BENDING, "appearance_change": True})
-    next(e for e in on if isinstance(e, Preview) and e.stage == "motion")
-    counts = [sum(p.numel() for p in run.scene.parameters()) for run in (off, on)]
-    assert counts[1] > 2 * counts[0]
-
-
 def test_n27_a_spoiled_gaussian_is_dropped_and_the_rest_goes_on(clip: Clip) -> None:
     run = small_run(clip)
     events = []

@@ -1,0 +1,26 @@
+"""Issue 7, "Shown by": effects that are planned rightly and cost nothing when off.
+
+    python tests/acceptance/7.py --work DIR [--only shared,right,simple,full] [--again] [--data ../shared/data]
+
+Results are kept in DIR/results, decisions on made clips in DIR/plans, so an interrupted run goes on where it stopped;
+--again measures anew. Prints the table as Markdown and writes it with all figures to DIR/7.json; misses of the plan are
+in DIR/misses.json, the shared clips' effect tables in DIR/shared_effects.json.
+"""
+
+from __future__ import annotations
+
+import sys
+
+from effect_rows import full, right, shared, simple
+from table import Rows, main
+
+ROWS: Rows = {
+    "shared": ("evidence and decisions, shared clips", shared),
+    "right": ("decisions on made clips", right),
+    "simple": ("planned against all effects, one rigid object", simple),
+    "full": ("planned against all effects, blender-trio", full),
+}
+
+
+if __name__ == "__main__":
+    sys.exit(main(ROWS, __doc__, "7"))
