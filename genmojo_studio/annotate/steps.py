@@ -58,6 +58,8 @@ def _points_missing(annotation: Annotation, points: int, stride: int) -> str:
 
 
 def _refine_missing(annotation: Annotation, points: int, stride: int) -> str:
+    if not annotation.tracks:
+        return tr("{n} points are still to be placed.").format(n=points)
     returned = [i for i in annotation.tracks.values() if i.review == "needs_fix"]
     if returned:
         return tr("{n} tracks came back from the review.").format(n=len(returned))

@@ -75,6 +75,7 @@ class TrackTree(QTreeWidget):
         session.shown.connect(self._later.start)
         session.frame_changed.connect(self._frame_changed)
         self.verticalScrollBar().valueChanged.connect(self._frame_changed)
+        session.state.subscribe(self._dress, "theme")
         self.rebuild()
 
     def showEvent(self, event: object) -> None:
@@ -109,6 +110,10 @@ class TrackTree(QTreeWidget):
                    if self._session.annotation.objects.get(i.object) in self._session.objects()}  # fmt: skip
         if wanted != set(self._items) or getattr(touched, "objects", None):
             self.rebuild()
+
+    def _dress(self) -> None:
+        """Another theme, other colours of the states."""
+        self._later.start()
 
     def _frame_changed(self, _frame: int) -> None:
         self._later.start()

@@ -301,3 +301,19 @@ def test_tracking_one_frame_matches_the_pixels(workspace, qtbot):
     moved = (labels[1].mean(axis=0) - labels[0].mean(axis=0))[::-1]
     assert session.frame == 1 and np.linalg.norm(moved) > 0.5
     np.testing.assert_allclose(session.annotation.track(track).xy[1] - (x, y), moved, atol=1.5)
+
+
+def test_a_step_without_points_is_not_done_and_states_are_readable_in_both_themes(workspace, qapp, qtbot):
+    from genmojo_studio import theme
+
+    assert not workspace.bar.buttons[2].text().endswith("✓"), "there is nothing to refine yet"
+    choose_all(workspace)
+    place_points(workspace, each=1)
+    fill(workspace)
+    workspace.show_step(3)
+    item = workspace.review.tree.topLevelItem(0).child(0)
+    for name in ("dark", "light"):
+        theme.apply(qapp, name)
+        workspace.state.set(theme=name)
+        shade = workspace.review.tree.palette().text().color()
+        qtbot.waitUntil(lambda shade=shade: item.foreground(1).color() == shade, timeout=5_000)
