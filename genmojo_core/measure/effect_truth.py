@@ -1,7 +1,7 @@
 """Is the effect plan right? Clips made with known effects, what they truly show, and every decision judged.
 
 Truth is measured on the exact scene of a procedural clip (hidden pixels, moved material points, lit background),
-never on what the plan's evidence sees. Thresholds of the plan were fixed on seeds 0-99; seeds 100-199 report.
+never on what the plan's evidence sees. Seeds 0-99 are there to fix thresholds on; 100-199 only report.
 """
 
 from __future__ import annotations

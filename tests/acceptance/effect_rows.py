@@ -21,7 +21,7 @@ from genmojo_core.estimate.complete import complete
 from genmojo_core.estimate.masks import Box
 from genmojo_core.measure import effect_truth
 
-TUNED, REPORTED = range(100), range(100, 200)  # seeds: thresholds are fixed on the first, judged on the second
+TUNED, REPORTED = range(100), range(100, 200)  # seeds: thresholds may be fixed on the first, never on the second
 CLIPS: dict[str, tuple[str, tuple[str, ...], tuple[Box, ...]]] = {
     "crossing": ("crossing", (), ()), "gold-fish": ("gold-fish", (), ()), "cross": ("blender-cross", (), ()),
     "cross alone": ("blender-cross", ("depth", "cameras"), ()), "trio": ("blender-trio", (), ()),
@@ -59,7 +59,7 @@ def shared(bench: Bench) -> list[Check]:
 def right(bench: Bench) -> list[Check]:
     """Decisions on clips made with every combination of effects, seeds 100-199; the tuning seeds beside them."""
     checks = []
-    for title, seeds in (("seeds 100-199", REPORTED), ("seeds 0-99 (tuned)", TUNED)):
+    for title, seeds in (("seeds 100-199", REPORTED), ("seeds 0-99 (for tuning)", TUNED)):
         rows = [row for seed in seeds for row in _judged(bench, seed)]
         total = effect_truth.summary(rows)
         limit = 95.0 if seeds is REPORTED else None
