@@ -27,7 +27,7 @@ PROCESS_BOUNDARIES = {"genmojo_core/cli/main.py"}
 GRADIENT_PACKAGES = ("genmojo_core/scene/", "genmojo_core/optimise/", "genmojo_core/priors/")
 SAFEMATH = "genmojo_core/scene/safemath.py"
 UNSAFE_GRADIENTS = {"log", "log2", "log10", "acos", "arccos", "asin", "arcsin", "logit", "atanh", "arctanh", "sqrt",
-                    "rsqrt", "normalize"}  # fmt: skip
+                    "rsqrt", "normalize", "reciprocal", "quantile"}  # fmt: skip
 PLAIN_MATHS = {"math", "np", "numpy", "cmath", "cv2", "safemath"}  # modules whose functions carry no gradient
 
 BANNED_IMPORTS = {"pickle", "cPickle", "_pickle", "cloudpickle", "dill", "joblib", "shelve", "marshal"}
@@ -171,11 +171,29 @@ def gradients(path: str, tree: ast.Module, text: str) -> list[str]:
             known = isinstance(node.func, ast.Attribute) or name.startswith("torch.")
             if last in UNSAFE_GRADIENTS and known and not modules & PLAIN_MATHS:
                 faults.append(f"{path}:{node.lineno} {ast.unparse(node.func)}: use scene/safemath.py")
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow) and _root(node):
+            faults.append(f"{path}:{node.lineno} takes a root of a tensor: use scene/safemath.py")
+        exponential = isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "exp"
+        if (
+            exponential
+            and "scale" in ast.unparse(node)
+            and not set(dotted(node.func, aliases).split(".")) & PLAIN_MATHS
+        ):
+            faults.append(f"{path}:{node.lineno} exponential of a scale: use scene/safemath.py")
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div) and isinstance(node.right, ast.Call):
             called = dotted(node.right.func, aliases) or ast.unparse(node.right.func)
             if called.endswith("norm") and not set(called.split(".")) & PLAIN_MATHS:
                 faults.append(f"{path}:{node.lineno} divides by a norm: use scene/safemath.py")
     return faults
+
+
+def _root(node: ast.BinOp) -> bool:
+    """Whether a power is a fractional or negative one of the result of a method, such as `x.sum() ** 0.5`."""
+    try:
+        power = float(ast.literal_eval(node.right))
+    except (ValueError, TypeError, SyntaxError):
+        return False
+    return (power < 0 or power != int(power)) and isinstance(node.left, ast.Call)
 
 
 def plain_text(path: str, tree: ast.Module, text: str) -> list[str]:
@@ -224,6 +242,15 @@ BAD: list[tuple[Rule, str]] = [
     (gradients, "from torch.nn import functional as F\ny = F.normalize(x)"),
     (gradients, "y = 1 / x.norm(dim=-1)"),
     (gradients, "import torch\ny = x / torch.linalg.norm(x)"),
+    (gradients, "y = x.log()"),
+    (gradients, "y = x.rsqrt()"),
+    (gradients, "y = x.reciprocal()"),
+    (gradients, "import torch\ny = torch.acos(x)"),
+    (gradients, "import torch as t\ny = t.quantile(x, 0.5)"),
+    (gradients, "y = (x * x).sum(-1) ** 0.5"),
+    (gradients, "y = x.abs() ** -1"),
+    (gradients, "import torch\ny = torch.exp(values['log_scales'])"),
+    (gradients, "y = self.log_scales.exp()"),
     (plain_text, "from . import a"),
     (plain_text, "# TO" "DO later"),
     (plain_text, "p = '/ho" "me/me/clip'"),

@@ -31,11 +31,11 @@ def run_selftest(args: argparse.Namespace) -> dict[str, Any]:
     say("loading the optimiser")
     import torch
 
-    from genmojo_core.hard_cases import splat_cases, suite
+    from genmojo_core.hard_cases import maths_cases, splat_cases, suite
     from genmojo_core.hard_cases.case import verdicts
     from genmojo_core.render import backend
 
-    cases = suite.CASES if args.hard or args.rows else splat_cases.CASES
+    cases = suite.CASES if args.hard or args.rows else (*maths_cases.CASES, *splat_cases.CASES)
     chosen = [case for case in cases if not args.rows or case.row in args.rows]
     if not chosen:
         raise GenmojoError("argument", f"no case belongs to {', '.join(args.rows)}", "--rows",

@@ -55,6 +55,7 @@ def shared() -> str:
     run, events = spoiled(lambda run: run.scene.objects[0].field.bases.fill_(math.nan))
     outcome = checked(run, events)
     hold(any("back to the last good state" in text for text in outcome.warnings), "there was no rollback")
+    hold(any("learning rates x 0.5" in text for text in outcome.warnings), "learning rates were not halved")
     named = [text for text in outcome.warnings if "left out" in text]
     hold(len(named) == guard.BAD_IN_A_ROW, f"{len(named)} steps were left out")
     hold(f"bases of {run.scene.objects[0].name}" in named[0], f"the culprit is not named: {named[0]}")

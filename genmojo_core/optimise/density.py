@@ -66,7 +66,7 @@ def children(gaussians: Gaussians, rows: Tensor, generator: torch.Generator) -> 
     third of its size. Opacity is shared so that the pair covers what the parent did.
     """
     values = {name: getattr(gaussians, name).detach()[rows] for name in Gaussians.NAMES}
-    sigma = torch.exp(values["log_scales"])
+    sigma = safemath.exp_scale(values["log_scales"])
     split = sigma.amax(dim=1) > gaussians.scales().detach().amax(dim=1).median()
     axis = sigma.argmax(dim=1)
     direction = _axis(values["quats"], axis) * sigma.gather(1, axis[:, None])

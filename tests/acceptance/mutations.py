@@ -1,0 +1,113 @@
+"""Mutation check of issue 7: each guard is taken away in turn, and at least one named hard case has to fail.
+
+    python -m tests.acceptance.mutations [--only NAME]
+
+Guards inside compiled kernels (alpha clamp, transmittance stop, budget of entries) are not taken away here.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+from unittest import mock
+
+import numpy as np
+import torch
+
+from genmojo_core.hard_cases import suite
+from genmojo_core.hard_cases.case import verdicts
+from genmojo_core.optimise import guard, run
+from genmojo_core.optimise.working_space import WorkingSpace
+from genmojo_core.priors import sds
+from genmojo_core.render.cpu import rasterize
+from genmojo_core.scene import safemath
+
+
+@dataclass(frozen=True)
+class Mutation:
+    """A guard taken away: what is replaced on what, and the rows of cases that may notice."""
+
+    name: str
+    target: Any
+    attribute: str
+    instead: Any
+    rows: tuple[str, ...]
+
+
+def _raw_quaternions(quats: torch.Tensor) -> torch.Tensor:
+    return quats / torch.linalg.norm(quats, dim=-1, keepdim=True)
+
+
+def _raw_rotation(vector: torch.Tensor) -> torch.Tensor:
+    angle = torch.linalg.norm(vector, dim=-1, keepdim=True)
+    return torch.cat([torch.cos(angle / 2), torch.sin(angle / 2) / angle * vector], dim=-1)
+
+
+def _raw_projection(points: Any, pose: Any, K: Any, near: float) -> Any:  # noqa: N803 - the field's name
+    return points[..., :2] / points[..., 2:], points[..., 2]
+
+
+def _no_near_plane(of: Callable[..., Any]) -> Callable[..., Any]:
+    return lambda view, pose=None: of(replace(view, near=-1e30), pose)
+
+
+def _nowhere(clip: Any) -> WorkingSpace:
+    return WorkingSpace(np.zeros(3), 1.0)
+
+
+MUTATIONS = (
+    Mutation("floor of divisions", safemath, "safe_divide", lambda a, b, floor=0.0: a / b, ("N01",)),
+    Mutation("floor of roots", safemath, "safe_sqrt", lambda x, floor=0.0: torch.sqrt(x), ("N30",)),
+    Mutation("floor of logarithms", safemath, "safe_log", lambda x, floor=0.0: torch.log(x), ("N14",)),
+    Mutation("floor of lengths", safemath, "safe_norm", lambda x, floor=0.0: (x * x).sum(-1).sqrt(), ("N30",)),
+    Mutation("clamp of logits", safemath, "logit", lambda p: torch.log(p / (1 - p)), ("N11",)),
+    Mutation("clamp of log scales", safemath, "exp_scale", torch.exp, ("N03",)),
+    Mutation("quaternions without length", safemath, "normalise", _raw_quaternions, ("N02",)),
+    Mutation("Taylor branch of rotations", safemath, "rotation_vector_to_quaternion", _raw_rotation, ("N30",)),
+    Mutation("floor of depths", safemath, "project", _raw_projection, ("N01",)),
+    Mutation("near plane", rasterize, "lens_of", _no_near_plane(rasterize.lens_of), ("N01", "N20")),
+    Mutation("finite gate", guard.Guard, "judge", lambda self, loss, parts=None: "step", ("N27",)),
+    Mutation("quarantine", guard.Guard, "quarantine", lambda self: [], ("N27", "N11")),
+    Mutation("rollback", guard.Guard, "rollback", lambda self: None, ("N27",)),
+    Mutation("end of hopeless runs", guard, "ROLLBACKS", 10**9, ("N27",)),
+    Mutation("learning rates back off", guard, "BACK_OFF", 1.0, ("N27",)),
+    Mutation("learning rates come back", guard, "RECOVERY", 10**9, ("N27",)),
+    Mutation("largest gradient", guard, "LARGEST", float("inf"), ("N27",)),
+    Mutation("ranges of parameters", guard.Guard, "_limit", lambda self, owner, gaussians: None, ("N11",)),
+    Mutation("bound of a prior's words", sds, "GAP_LIMIT", float("inf"), ("N26",)),
+    Mutation("coordinates near the origin", run, "working_space", _nowhere, ("N24", "N28")),
+)
+
+
+def failing(mutation: Mutation) -> list[str]:
+    """Names of the cases that fail without the guard; it stops at the first two."""
+    found: list[str] = []
+    with mock.patch.object(mutation.target, mutation.attribute, mutation.instead):
+        for verdict in verdicts([case for case in suite.CASES if case.row in mutation.rows]):
+            found += [] if verdict.holds else [f"{verdict.row} {verdict.name}"]
+            if len(found) == 2:
+                break
+    return found
+
+
+def main() -> int:
+    """Print guard -> cases that fail without it; 1 if a guard is missed by nobody."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", default="", help="guards whose name contains this")
+    args = parser.parse_args()
+    torch.set_num_threads(1)
+    survived = 0
+    print("| guard taken away | cases that fail |\n|---|---|")
+    for mutation in MUTATIONS:
+        if args.only in mutation.name:
+            found = failing(mutation)
+            survived += not found
+            print(f"| {mutation.name} | {', '.join(found) or 'NONE'} |", flush=True)
+    return 1 if survived else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
