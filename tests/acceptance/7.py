@@ -1,6 +1,6 @@
-"""Issue 7, "Shown by": effects that are planned rightly and cost nothing when off.
+"""Issue 7, "Shown by": effects that are planned rightly and cost nothing when off, hard cases that stay stable.
 
-    python tests/acceptance/7.py --work DIR [--only shared,right,simple,full] [--again] [--data ../shared/data]
+    python tests/acceptance/7.py --work DIR [--only shared,hard,...] [--again] [--data ../shared/data]
 
 Results are kept in DIR/results, decisions on made clips in DIR/plans, so an interrupted run goes on where it stopped;
 --again measures anew. Prints the table as Markdown and writes it with all figures to DIR/7.json; misses of the plan are
@@ -12,6 +12,7 @@ from __future__ import annotations
 import sys
 
 from effect_rows import full, right, shared, simple
+from hard_case_rows import coverage, hard, mutations, soak
 from table import Rows, main
 
 ROWS: Rows = {
@@ -19,6 +20,10 @@ ROWS: Rows = {
     "right": ("decisions on made clips", right),
     "simple": ("planned against all effects, one rigid object", simple),
     "full": ("planned against all effects, blender-trio", full),
+    "hard": ("hard cases on this machine", hard),
+    "mutations": ("guards taken away in turn", mutations),
+    "coverage": ("rows N01 to N33 have tests", coverage),
+    "soak": ("20,000 steps on a hostile clip", soak),
 }
 
 
