@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import math
 import signal
 import sys
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Any
@@ -21,6 +22,7 @@ from genmojo_core.errors import GenmojoError
 
 if TYPE_CHECKING:
     from genmojo_core.clip.clip import Clip
+    from genmojo_core.effects.forecast import Forecast
     from genmojo_core.effects.plan import EffectPlan
     from genmojo_core.events import Event
     from genmojo_core.optimise.run import Run
@@ -52,7 +54,9 @@ def run_effects(args: argparse.Namespace) -> dict[str, Any]:
     """The effect plan of a clip."""
     config = configured(args)
     clip, plan = _prepare(args, config)
-    return {"clip": clip.name, "frames": len(clip), "effects": plan.to_json(), "guesses": list(clip.guesses)}
+    expected = expectation(clip, plan, config)
+    return {"clip": clip.name, "frames": len(clip), "effects": plan.to_json(), "guesses": list(clip.guesses),
+            "preset": config.preset, "forecast": None if expected is None else expected.to_json()}  # fmt: skip
 
 
 def run_optimize(args: argparse.Namespace) -> dict[str, Any]:
@@ -120,11 +124,13 @@ class Job:
 
 def optimize_clip(clip: Clip, plan: EffectPlan, config: RunConfig, job: Job) -> dict[str, Any]:
     """Run to the end or to Ctrl-C, write the scene, measure it; returns what `optimize --json` prints."""
+    from genmojo_core.effects import forecast
     from genmojo_core.measure.scoring import Scorer
     from genmojo_core.measure.truth import find_truth
     from genmojo_core.optimise.run import Run
     from genmojo_core.store import scene_hdf5
 
+    expected = expectation(clip, plan, config)
     curve_path = Path(job.output).with_suffix(".curve.jsonl")
     run = Run(clip, plan, config, run_dir=job.run_dir, resume=job.resume, curve_path=curve_path)
     scorer = None if find_truth(job.source) is None else Scorer(job.source, job.frames)
@@ -152,7 +158,33 @@ def optimize_clip(clip: Clip, plan: EffectPlan, config: RunConfig, job: Job) -> 
     if interrupted():
         say(f"Interrupted; what stood was written to {job.output}.")
         return result | {"exit_code": 130}
-    return result | _measured(scene, clip, job)
+    figures = _measured(scene, clip, job)
+    took = watched.cpu_seconds if config.clock == "cpu" else watched.seconds
+    came = None if expected is None else forecast.outcome(expected, took, figures["psnr"])
+    if came is not None:
+        say(came["said"])
+    metrics = scene.metrics | {key: float(value) for key, value in figures.items() if math.isfinite(value)}
+    scene_hdf5.write(replace(scene, config={**scene.config, "forecast": came}, metrics=metrics), job.output)
+    return result | figures | {"forecast": came}
+
+
+def expectation(clip: Clip, plan: EffectPlan, config: RunConfig) -> Forecast | None:
+    """Seconds and dB to expect on this machine, said on stderr; the first call on a machine measures it for seconds.
+
+    None for a run on a graphics card, of which no model was fitted.
+    """
+    import torch
+
+    from genmojo_core.effects import forecast, machine
+    from genmojo_core.optimise import calibrate
+
+    if config.device.startswith("cuda") or (config.device == "auto" and torch.cuda.is_available()):
+        return None
+    if machine.load() is None:
+        say("Measuring how fast this machine is (once) ...")
+    expected = forecast.forecast(clip, plan, config, calibrate.calibrated())
+    say(forecast.said(expected))
+    return expected
 
 
 def peak_mb() -> float:

@@ -14,6 +14,7 @@ from genmojo_core.store.atomic import write_bytes
 from genmojo_core.store.safe import json_text
 
 Row = Mapping[str, Any]
+SHOWN = 6  # trials left out that are named
 
 _STYLE = """
 body{font:16px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,sans-serif;color:#1a1a1a;max-width:58rem;
@@ -74,7 +75,7 @@ def page(told: Mapping[str, Any], rows: Sequence[Row]) -> str:
         ""
         if first is None
         else (
-            f"{max(r['frames'] for r in rows)} frames, {max(r['objects'] for r in rows)} objects. "
+            f"{max(r['frames'] for r in rows):.0f} frames, {max(r['objects'] for r in rows):.0f} objects. "
             f"{told['trials']} trials, "
             f"{told['seconds'] / 60:.0f} minutes of runs. Every 8th frame and 2 % of the foreground are held out."
         )
@@ -135,7 +136,8 @@ def _curves(told: Mapping[str, Any], rows: Sequence[Row]) -> list[str]:
         "<h2>What a second buys</h2>",
         _figure_of(accuracy_chart(rows), "Every dot is a scene that could be had: a run stopped there, rendered at 256 "
                    "pixels and compared with the clip. The line joins those that no other beats."),
-        _figure_of(held, "The same runs on their held-out 4 × 4 blocks, as logged every 20 steps (seed 0)."),
+        _figure_of(held, "The same runs on their held-out 4 × 4 blocks, as logged every 20 steps (seed 0). Blocks of "
+                   "frames that have not come into play yet do not count, so curves may dip."),
         _runs(told),
         "<p class=note>PSNR: foreground, mean over frames. Held-out: blocks in no loss. Held frames: whole frames that "
         "the run never saw, rendered at their time. ATE: pixels of 256 × 256, against truth. Last columns: seconds "
@@ -272,10 +274,10 @@ def _left_out(left: Sequence[str]) -> str:
     """What there was no time for."""
     if not left:
         return ""
-    return (
-        f"<p class=note>No time for {len(left)} trials: {html.escape('; '.join(left))}. The same command with more "
-        "budget goes on where this ended.</p>"
-    )
+    more = f" and {len(left) - SHOWN} more" if len(left) > SHOWN else ""
+    said = f"No time for {len(left)} trials: {'; '.join(left[:SHOWN])}{more}. The same command with "
+    said += "a larger --budget goes on where this ended."
+    return f"<p class=note>{html.escape(said)}</p>"
 
 
 def _figure_of(chart: Chart, caption: str) -> str:

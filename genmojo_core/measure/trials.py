@@ -11,7 +11,7 @@ import numpy as np
 
 from genmojo_core.clip import folders
 from genmojo_core.clip.clip import Clip
-from genmojo_core.config import RunConfig
+from genmojo_core.config import RunConfig, preset
 from genmojo_core.effects import decide
 from genmojo_core.effects.costs import BYTES_PER_VALUE
 from genmojo_core.effects.difficulty import Difficulty, difficulty
@@ -84,7 +84,7 @@ class Bench:
         """The row of a trial. Raises GenmojoError as reading the clip, and "numeric" where a run fails."""
         clip, prepared = self.clip(trial.config)
         if self._difficulty is None:
-            self._difficulty = difficulty(clip)
+            self._difficulty = difficulty(self.clip(preset("draft"))[0])  # one measure for all sizes
         clip = _reduced(clip, trial)
         plan = decide.plan(clip, trial.config, trial.effects)
         row = {"key": trial.key, "kind": trial.kind, "title": trial.title, "seed": trial.config.seed,

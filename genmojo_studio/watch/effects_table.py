@@ -39,6 +39,7 @@ class EffectsTable(QTreeWidget):
         self.rows: list[dict[str, Any]] = []
         self.guesses: list[str] = []
         self.frames = 0
+        self.expected: dict[str, Any] = {}  # `Forecast.to_json` for the preset that was measured
         self._process: QProcess | None = None
         self.itemChanged.connect(self._ticked)
 
@@ -107,6 +108,7 @@ class EffectsTable(QTreeWidget):
         answer = json.loads(output)
         self.guesses = [str(sentence) for sentence in answer.get("guesses", [])]
         self.frames = int(answer.get("frames", 0))
+        self.expected = dict(answer.get("forecast") or {})
         self.show_rows(answer["effects"])
         self.measured.emit()
 

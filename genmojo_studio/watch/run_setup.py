@@ -8,8 +8,11 @@ from PySide6.QtCore import QTimer, Signal
 from PySide6.QtWidgets import QComboBox, QFormLayout, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
 from genmojo_core.clip.clip import Clip
+from genmojo_core.clip.resize import fitted
 from genmojo_core.config import PRESETS, RunConfig
 from genmojo_core.effects.costs import run_sizes
+from genmojo_core.effects.difficulty import Difficulty
+from genmojo_core.effects.forecast import foretold, work_of
 from genmojo_studio.state import AppState
 from genmojo_studio.translate import tr
 from genmojo_studio.watch import forecast
@@ -119,15 +122,27 @@ class RunSetup(QWidget):
         if clip is None or not self.effects.rows:
             return
         told = self._forecast(clip)
-        text = tr("About {low} to {high}, about {mb:.1f} GB of memory.").format(
-            low=forecast.spoken(told.seconds / 1.6),
-            high=forecast.spoken(min(told.seconds * 1.6, self.config().budget_seconds)),
-            mb=told.megabytes / 1000,
-        )
+        text = self._expected(clip) + tr("about {mb:.1f} GB of memory.").format(mb=told.megabytes / 1000)
         if told.too_large:
             text += " " + tr("That is more than this machine has free: choose a smaller preset.")
         edited = [tr("The run uses the masks that were corrected here.")] if self._state.masks_path else []
         self._say("\n".join([text, *edited, *self.effects.guesses]), "bad" if told.too_large else "dim")
+
+    def _expected(self, clip: Clip) -> str:
+        """Seconds and dB to expect with the budget and the effects as they are chosen now; "" before they are known."""
+        basis = self.effects.expected
+        if not basis:
+            return ""
+        config = self.config()
+        on = [row["name"] for row in self.effects.chosen() if row["on"]]
+        work = work_of(fitted(clip.source_size, config.short_side), len(clip), clip.objects, on, config)
+        told = foretold(work, Difficulty(**basis["clip"]), config, float(basis["factor"]))
+        return tr("Expected: {time} (± {spread}), {psnr:.1f} dB (± {error:.1f}), ").format(
+            time=forecast.spoken(told.seconds),
+            spread=forecast.spoken(told.seconds_error),
+            psnr=told.decibel,
+            error=told.decibel_error,
+        )
 
     def _forecast(self, clip: Clip) -> forecast.Forecast:
         config = self.config()

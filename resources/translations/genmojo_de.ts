@@ -1952,12 +1952,12 @@
       <translation>Beenden und verwerfen</translation>
     </message>
     <message>
-      <source>No scene yet. Start a run (F5), or open a scene file.</source>
-      <translation>Noch keine Szene. Starten Sie einen Lauf (F5) oder öffnen Sie eine Szene.</translation>
-    </message>
-    <message>
       <source>Turn the view</source>
       <translation>Ansicht drehen</translation>
+    </message>
+    <message>
+      <source>No scene yet. Start a run (F5), or open a scene file.</source>
+      <translation>Noch keine Szene. Starten Sie einen Lauf (F5) oder öffnen Sie eine Szene.</translation>
     </message>
     <message>
       <source>Moves the objects apart</source>
@@ -2152,16 +2152,20 @@
       <translation>Es wird gemessen, was der Clip verlangt …</translation>
     </message>
     <message>
-      <source>About {low} to {high}, about {mb:.1f} GB of memory.</source>
-      <translation>Etwa {low} bis {high}, etwa {mb:.1f} GB Speicher.</translation>
-    </message>
-    <message>
       <source>That is more than this machine has free: choose a smaller preset.</source>
       <translation>Das ist mehr, als diese Maschine frei hat: wählen Sie eine kleinere Voreinstellung.</translation>
     </message>
     <message>
       <source>The run uses the masks that were corrected here.</source>
       <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Expected: {time} (± {spread}), {psnr:.1f} dB (± {error:.1f}), </source>
+      <translation>Erwartet: {time} (± {spread}), {psnr:.1f} dB (± {error:.1f}), </translation>
+    </message>
+    <message>
+      <source>about {mb:.1f} GB of memory.</source>
+      <translation>etwa {mb:.1f} GB Speicher.</translation>
     </message>
     <message>
       <source>Stop when a minute buys less than</source>
@@ -2334,6 +2338,15 @@
     <message>
       <source>Of the clip</source>
       <translation>Des Clips</translation>
+    </message>
+    <message>
+      <source>Map of directions</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Every direction: green was supervised or is within {degrees:.0f}° of it, faint is a guess.
+Points are supervised views, the ring is this view. Click, drag or use the arrow keys to turn.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>Azimuth</source>

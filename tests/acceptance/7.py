@@ -1,4 +1,4 @@
-"""Issue 7, "Shown by": effects that are planned rightly and cost nothing when off, hard cases that stay stable.
+"""Issue 7, "Shown by": accuracy against time, effects planned rightly that cost nothing when off, stable hard cases.
 
     python tests/acceptance/7.py --work DIR [--only shared,hard,...] [--again] [--data ../shared/data]
 
@@ -14,8 +14,11 @@ import sys
 from effect_rows import full, right, shared, simple
 from hard_case_rows import coverage, hard, mutations, soak
 from table import Rows, main
+from tradeoff_rows import REPORTS, forecasts
 
 ROWS: Rows = {
+    **REPORTS,
+    "forecast": ("forecasts, each clip by a model of the others", forecasts),
     "shared": ("evidence and decisions, shared clips", shared),
     "right": ("decisions on made clips", right),
     "simple": ("planned against all effects, one rigid object", simple),

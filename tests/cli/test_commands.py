@@ -12,6 +12,7 @@ import pytest
 from scenes import small_scene
 
 from genmojo_core.cli.main import main
+from genmojo_core.effects.machine import Machine
 from genmojo_core.measure.views import Look, render_frame
 from genmojo_core.store import npz, scene_hdf5
 from genmojo_core.tracks.model import PointTracks
@@ -234,6 +235,12 @@ def test_bad_clips(capsys, tmp_path, kind):
 # ---- a run --------------------------------------------------------------------------------------------------------
 
 
+@pytest.fixture(autouse=True)
+def calibrated(monkeypatch):
+    """A machine that was measured already: tests neither wait for that nor touch the user's cache."""
+    monkeypatch.setattr("genmojo_core.effects.machine.load", lambda: Machine())
+
+
 class FakeRun:
     """A run of ten steps that bakes the small scene; `presses` sends Ctrl-C after that many steps."""
 
@@ -280,6 +287,16 @@ def test_optimize_reports_what_the_contract_says(capsys, fake, clip_path, tmp_pa
     assert {"seconds", "steps", "psnr", "psnr_full", "peak_mb", "effects", "path", "curve", "guesses"} <= set(found)
     assert found["steps"] == 10 and found["psnr"] > 45 and found["first_scene_seconds"] == 0.5
     assert {"name", "on", "evidence", "unit", "threshold", "reason", "ms_per_step", "mb"} <= set(found["effects"][0])
+    kept = scene_hdf5.read(tmp_path / "s.h5")
+    assert kept.config["forecast"] == found["forecast"] and kept.metrics["psnr"] == pytest.approx(found["psnr"])
+    assert found["forecast"]["psnr_off"] == pytest.approx(found["psnr"] - found["forecast"]["expected_psnr"])
+
+
+def test_a_budget_alone_means_auto_and_a_named_preset_is_kept(capsys, clip_path):
+    for options, name in ((["--budget", "20s"], "auto"), (["--budget", "20s", "--preset", "draft"], "draft")):
+        code, found, err = run(capsys, "effects", clip_path, *options)
+        assert code == 0 and found["preset"] == name and "Expected: " in err
+        assert found["forecast"]["seconds"] <= 20.0 and found["forecast"]["steps"] > 0
 
 
 def test_ctrl_c_keeps_the_work(capsys, fake, clip_path, tmp_path, monkeypatch):

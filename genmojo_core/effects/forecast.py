@@ -1,0 +1,200 @@
+"""What a run will take and reach, foretold before it starts: seconds on this machine and foreground PSNR in dB.
+
+Seconds: CPU time of a step is linear in what is splatted and deformed, the search for motion is a power law; both were
+fitted by `python -m tests.benchmarks.forecast` on rows of `genmojo tradeoff`, and a short calibration (machine.py)
+scales them to the machine. Decibels: linear in the clip's difficulty and in logarithms of what the run may spend.
+The same program leaves one clip out after the other and prints the errors. Imports no torch.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from genmojo_core.clip.clip import Clip
+from genmojo_core.config import RunConfig
+from genmojo_core.effects.difficulty import Difficulty, difficulty
+from genmojo_core.effects.plan import EffectPlan
+
+if TYPE_CHECKING:
+    from genmojo_core.effects.machine import Machine
+
+REFERENCE_STEP_MS = 62.0  # CPU ms of a step of optimise/calibrate.py on the reference machine
+MOTION_SHARE = 0.4  # of the budget: most that the search for motion may take (optimise/run.py)
+LIFT_SHARE = 0.15  # of a paced run's time after the motion (optimise/schedule.py)
+LIFT_WORTH = 0.3  # of a joint step: what a step of the static lift does for the result
+START_SHARE = 0.8  # of the allowed Gaussians that there are on average over a run
+STEP_NAMES = ("views x pixels x channels, millions", "views x Gaussians, thousands", "views x bending Gaussians, "
+              "thousands", "objects shown to the prior", "objects")  # fmt: skip
+DB_NAMES = (
+    "one",
+    "texture",
+    "change",
+    "ln steps per frame",
+    "ln pixels per clip pixel at 256",
+    "ln Gaussians per object",
+)
+
+
+@dataclass(frozen=True)
+class Work:
+    """What a run is made of.
+
+    Args:
+        frames, objects: of the clip. views: frames splatted per step. pixels: of a frame as optimised.
+        channels: of a rendering. moving: Gaussians of all objects. total: with the background's. bends: objects have
+        deformation fields. prior: objects shown to the prior per step. aspect: long side by short side.
+    """
+
+    frames: int
+    objects: int
+    views: int
+    pixels: int
+    channels: int
+    moving: float
+    total: float
+    bends: bool
+    prior: int
+    aspect: float
+
+
+@dataclass(frozen=True)
+class Model:
+    """Fitted numbers, and the relative error of seconds and the error of dB on clips that the fit has not seen.
+
+    Args:
+        step: CPU ms per entry of `step_features`. motion: ln c, and exponents of frames, objects and pixels, of the
+        motion's CPU seconds. decibel: dB per entry of `decibel_features`. *_error: root mean square, leaving one clip
+        out after the other.
+    """
+
+    step: tuple[float, ...]
+    motion: tuple[float, ...]
+    decibel: tuple[float, ...]
+    decibel_error: float
+    seconds_error: float
+
+
+MODEL = Model(
+    step=(61.05, 1.885, 3.929, 47.24, 0), motion=(-4.024, 1, 1.158, 0.1721),
+    decibel=(13.02, -0.02128, -0.0201, 2.486, 1.172, 0.8477), decibel_error=1.1, seconds_error=0.23,
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """What to expect of a run.
+
+    Args:
+        seconds: by the run's own clock. decibel: foreground PSNR. *_error: root mean square errors of both.
+        steps: it will get to. factor: seconds that its clock counts per CPU second of the reference machine.
+        clip: the difficulty that it rests on; with `factor` it can be foretold anew for other settings.
+    """
+
+    seconds: float
+    decibel: float
+    seconds_error: float
+    decibel_error: float
+    steps: float
+    factor: float
+    clip: Difficulty
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return asdict(self)
+
+
+def work_of(size: tuple[int, int], frames: int, objects: int, on: Collection[str], config: RunConfig) -> Work:
+    """The work of a step for a clip of (width, height) pixels as optimised, with the effects that are on."""
+    objects = max(objects, 1)
+    moving = START_SHARE * config.gaussians_per_object * objects
+    background = config.background_gaussians if "background" in on else 0
+    channels = 3 + (objects if "instance_labels" in on else 1) + (2 if "flow" in on else 0)
+    shown = (config.prior_objects or objects) if "unseen_views" in on else 0
+    return Work(frames, objects, min(config.frames_per_step, frames), size[0] * size[1], channels, moving,
+                moving + background, "non_rigid_motion" in on, min(shown, objects),
+                max(size) / max(min(size), 1))  # fmt: skip
+
+
+def step_features(work: Work, deform: bool = True) -> np.ndarray:  # (5,)
+    """What the CPU time of one step is linear in (STEP_NAMES); the static lift deforms nothing."""
+    bending = work.moving if work.bends and deform else 0.0
+    return np.array([
+        work.views * work.pixels * work.channels / 1e6, work.views * work.total / 1e3, work.views * bending / 1e3,
+        float(work.prior), float(work.objects),
+    ])  # fmt: skip
+
+
+def motion_features(work: Work) -> np.ndarray:  # (4,)
+    """What the logarithm of the motion's CPU seconds is linear in."""
+    return np.array([1.0, math.log(max(work.frames, 2)), math.log(work.objects), math.log(work.pixels)])
+
+
+def decibel_features(clip: Difficulty, work: Work, steps: tuple[float, float], per_object: int) -> np.ndarray:  # (6,)
+    """What the foreground's PSNR is linear in (DB_NAMES).
+
+    Args:
+        steps: of the lift and of the joint stage. per_object: Gaussians allowed.
+    """
+    shown = max((LIFT_WORTH * steps[0] + steps[1]) * work.views / work.frames, 0.5)
+    side = math.sqrt(work.pixels / work.aspect) / 256.0
+    return np.array([1.0, clip.texture, clip.change, math.log(shown), math.log(min(side, 1.0)),
+                     math.log(per_object)])  # fmt: skip
+
+
+def cpu_seconds(work: Work, config: RunConfig, model: Model = MODEL) -> dict[str, float]:
+    """CPU seconds on the reference machine: of the motion, of one lift step and of one joint step."""
+    step = np.array(model.step)
+    motion = math.exp(float(motion_features(work) @ np.array(model.motion))) if work.frames > 1 else 0.0
+    return {"motion": motion, "lift": float(step_features(work, False) @ step) / 1000,
+            "joint": float(step_features(work, work.frames > 1) @ step) / 1000}  # fmt: skip
+
+
+def forecast(clip: Clip, plan: EffectPlan, config: RunConfig, machine: Machine, model: Model = MODEL) -> Forecast:
+    """Foretell a run on a completed clip, held at the size to optimise, on this machine as busy as it is now."""
+    on = [effect.name for effect in plan.effects if effect.on]
+    work = work_of(clip.size, len(clip), clip.objects, on, config)
+    factor = (1.0 if config.clock == "cpu" else machine.wall_now()) / machine.speed
+    return foretold(work, difficulty(clip), config, factor, model)
+
+
+def foretold(work: Work, clip: Difficulty, config: RunConfig, factor: float, model: Model = MODEL) -> Forecast:
+    """As `forecast`; `factor`: seconds that the budget counts per CPU second of the reference machine."""
+    cost = {name: factor * value for name, value in cpu_seconds(work, config, model).items()}
+    budget = config.budget_seconds
+    motion = min(cost["motion"], MOTION_SHARE * budget)
+    left = budget - motion
+    if config.paced:
+        lift = LIFT_SHARE * left / cost["lift"]
+        joint = (1 - LIFT_SHARE) * left / cost["joint"]
+        seconds = budget
+    else:
+        lift = min(config.lift_steps, left / cost["lift"])
+        joint = min(config.joint_steps, max(left - lift * cost["lift"], 0.0) / cost["joint"])
+        seconds = motion + lift * cost["lift"] + joint * cost["joint"]
+    features = decibel_features(clip, work, (lift, joint), config.gaussians_per_object)
+    limited = seconds >= 0.99 * budget
+    error = 0.0 if limited else model.seconds_error * seconds
+    decibel = float(features @ np.array(model.decibel))
+    return Forecast(seconds, decibel, error, model.decibel_error, lift + joint, factor, clip)
+
+
+def said(expected: Forecast) -> str:
+    """ "Expected: 310 s (± 60), 30.1 dB (± 0.8)", for people."""
+    return f"Expected: {expected.seconds:.0f} s (± {expected.seconds_error:.0f}), {expected.decibel:.1f} dB "\
+           f"(± {expected.decibel_error:.1f})."  # fmt: skip
+
+
+def outcome(expected: Forecast, seconds: float, decibel: float) -> dict[str, Any]:
+    """What was expected beside what came, for the scene's file and the log; "said" is a sentence of it."""
+    return {
+        "expected_seconds": expected.seconds, "seconds": seconds, "expected_psnr": expected.decibel, "psnr": decibel,
+        "seconds_off": seconds / expected.seconds - 1.0 if expected.seconds > 0 else 0.0,
+        "psnr_off": decibel - expected.decibel,
+        "said": f"Expected {expected.seconds:.0f} s, took {seconds:.0f} s; expected {expected.decibel:.1f} dB, "
+                f"got {decibel:.1f} dB.",
+    }  # fmt: skip

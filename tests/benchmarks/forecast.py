@@ -1,0 +1,170 @@
+"""The forecast's numbers, fitted on rows of `genmojo tradeoff`, and its errors on clips left out.
+
+    python -m tests.benchmarks.forecast REPORT_FOLDER... [--json FILE]
+
+Prints the `Model` to put into effects/forecast.py. Errors are leave-one-clip-out: every clip is foretold by a model
+fitted on the others. Times are CPU seconds, so a busy machine does no harm; the rows must all come from one machine.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from genmojo_core.config import LearningRates, LossWeights, RunConfig
+from genmojo_core.effects.difficulty import Difficulty
+from genmojo_core.effects.forecast import (
+    Model,
+    Work,
+    decibel_features,
+    foretold,
+    motion_features,
+    step_features,
+    work_of,
+)
+from genmojo_core.optimise.held_out import held_frames
+
+PENALTY = np.array([50.0, 50.0, 0.05, 0.05, 0.05])  # of texture and change, of which few clips tell little; of the rest
+_HURRIED = 0.38  # of the budget: from here the motion was cut short
+
+
+def config_of(row: dict[str, Any]) -> RunConfig:
+    stored = dict(row["config"])
+    stored |= {"weights": LossWeights(**stored["weights"]), "rates": LearningRates(**stored["rates"])}
+    stored |= {"plane_levels": tuple(stored["plane_levels"]), "ignore": tuple(stored["ignore"])}
+    return RunConfig(**stored)
+
+
+def work(row: dict[str, Any]) -> Work:
+    made = work_of(tuple(row["size"]), row["frames"], row["objects"], row["on"], config_of(row))
+    if "moving" in row and row["moving"]:
+        return Work(**{**vars(made), "moving": row["moving"], "total": row["gaussians"]})
+    return Work(**{**vars(made), "total": row["gaussians"]})
+
+
+def non_negative(a: np.ndarray, b: np.ndarray, rounds: int = 3000) -> np.ndarray:
+    """Least squares of relative errors with coefficients of at least 0 (coordinate descent)."""
+    a, b = a / b[:, None], np.ones(len(b))
+    x = np.zeros(a.shape[1])
+    norms = (a * a).sum(axis=0) + 1e-12
+    for _ in range(rounds):
+        for j in range(len(x)):
+            x[j] = max(0.0, x[j] + float(a[:, j] @ (b - a @ x)) / norms[j])
+    return x
+
+
+def ridge(a: np.ndarray, b: np.ndarray, clips: list[str], penalty: np.ndarray) -> np.ndarray:
+    """Least squares of standardised features drawn towards 0 by `penalty` each, the constant (first) left free.
+
+    Every clip counts as one, however many rows it has.
+    """
+    weight = np.array([1.0 / clips.count(name) for name in clips])
+    mean = np.average(a[:, 1:], axis=0, weights=weight)
+    spread = np.sqrt(np.average((a[:, 1:] - mean) ** 2, axis=0, weights=weight)) + 1e-9
+    z, middle = (a[:, 1:] - mean) / spread, np.average(b, weights=weight)
+    slopes = np.linalg.solve((z * weight[:, None]).T @ z + np.diag(penalty), z.T @ (weight * (b - middle))) / spread
+    return np.concatenate([[middle - mean @ slopes], slopes])
+
+
+def motion_law(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """ln c and exponents of the motion, drawn towards 1 (frames), 1 (objects) and 0.3 (pixels)."""
+    usual = np.array([0.0, 1.0, 1.0, 0.3])
+    penalty = np.diag([0.0, 1.0, 1.0, 1.0])
+    return usual + np.linalg.solve(a.T @ a + penalty, a.T @ (b - a @ usual))
+
+
+def fit(rows: list[dict[str, Any]], errors: tuple[float, float] = (1.0, 0.2)) -> Model:
+    steps, ms, motions, seconds, levels, psnr, clips = [], [], [], [], [], [], []
+    for row in rows:
+        if row["kind"] == "growth":
+            steps.append(step_features(work(row)))
+            ms.append(row["step_ms"])
+            if row.get("motion_seconds", 0) > 0.05:
+                motions.append(motion_features(work(row)))
+                seconds.append(math.log(row["motion_seconds"]))
+            continue
+        for name in ("lift", "joint"):
+            stage = row["stages"].get(name, {"steps": 0})
+            if stage["steps"] >= 10 and stage["cpu_seconds"]:
+                steps.append(step_features(work(row), name == "joint"))
+                ms.append(1000 * stage["cpu_seconds"] / stage["steps"])
+        if row["kind"] not in ("preset", "size"):
+            continue
+        motion = row["stages"]["motion"]["cpu_seconds"]
+        if motion < min(_HURRIED * row["config"]["budget_seconds"], 1e6):
+            motions.append(motion_features(work(row)))
+            seconds.append(math.log(motion))
+        levels.append(level(row))
+        psnr.append(seen_psnr(row))
+        clips.append(row["clip"])
+    return Model(
+        tuple(non_negative(np.array(steps), np.array(ms)).tolist()),
+        tuple(motion_law(np.array(motions), np.array(seconds)).tolist()),
+        tuple(ridge(np.array(levels), np.array(psnr), clips, PENALTY).tolist()), *errors,
+    )  # fmt: skip
+
+
+def seen_psnr(row: dict[str, Any]) -> float:
+    """PSNR over the frames that the run saw: a run that is foretold holds none out, the rows of a report do."""
+    held = len(held_frames(int(row["frames"]), int(row["config"]["held_out_every"])))
+    unseen = row.get("psnr_held_frames", 0.0)
+    return (row["psnr"] * row["frames"] - unseen * held) / (row["frames"] - held) if unseen else row["psnr"]
+
+
+def level(row: dict[str, Any]) -> np.ndarray:
+    done = {name: row["stages"].get(name, {"steps": 0})["steps"] for name in ("lift", "joint")}
+    return decibel_features(Difficulty(**row["difficulty"]), work(row), (done["lift"], done["joint"]),
+                            row["config"]["gaussians_per_object"])  # fmt: skip
+
+
+def left_out(clips: dict[str, list[dict[str, Any]]]) -> list[dict[str, Any]]:
+    """Every preset row foretold by a model of the other clips; the run's own clock is the CPU's."""
+    found = []
+    for name, rows in clips.items():
+        model = fit([r for other, rs in clips.items() if other != name for r in rs])
+        for row in rows:
+            if row["kind"] not in ("preset", "size"):
+                continue
+            made = work_of(tuple(row["size"]), row["frames"], row["objects"], row["on"], config_of(row))
+            told = foretold(made, Difficulty(**row["difficulty"]), config_of(row), 1.0, model)
+            free = row["reason"] == "done" and not row["config"]["paced"]
+            found.append({"clip": name, "run": row["title"], "seconds": row["cpu_seconds"], "told_s": told.seconds,
+                          "psnr": seen_psnr(row), "told_db": told.decibel, "free": free, "steps": row["steps"],
+                          "told_steps": told.steps})  # fmt: skip
+    return found
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folders", nargs="+", type=Path)
+    parser.add_argument("--json", type=Path)
+    args = parser.parse_args()
+    clips = {f.name: [json.loads(p.read_text()) for p in sorted((f / "rows").glob("*.json"))] for f in args.folders}
+    for name, rows in clips.items():
+        for row in rows:
+            row["clip"] = name
+    found = left_out(clips)
+    for row in found:
+        print(f"{row['clip']:15} {row['run']:18} {row['told_s']:6.1f} s told, {row['seconds'] or 0:6.1f} taken;  "
+              f"{row['told_steps']:5.0f} / {row['steps']:5.0f} steps;  {row['told_db']:5.1f} dB told, "
+              f"{row['psnr']:5.1f} got")  # fmt: skip
+    off = np.array([row["told_db"] - row["psnr"] for row in found])
+    pace = np.array([row["told_steps"] / row["steps"] - 1 for row in found if row["steps"]])
+    time = np.array([row["told_s"] / row["seconds"] - 1 for row in found if row["free"] and row["seconds"]])
+    errors = (float(np.sqrt((off**2).mean())), float(np.sqrt((np.concatenate([time, pace]) ** 2).mean())))
+    print(f"dB: rms {errors[0]:.2f}, within 1.0: {(np.abs(off) <= 1).sum()} of {len(off)}")
+    print(f"seconds and steps: rms {100 * errors[1]:.0f} %; seconds of runs that ended by themselves: within 25 %: "
+          f"{(np.abs(time) <= 0.25).sum()} of {len(time)}; steps got to: within 25 %: "
+          f"{(np.abs(pace) <= 0.25).sum()} of {len(pace)}")  # fmt: skip
+    print(fit([row for rows in clips.values() for row in rows], errors))
+    if args.json:
+        args.json.write_text(json.dumps({"rows": found, "errors": errors}, indent=1))
+
+
+if __name__ == "__main__":
+    main()
