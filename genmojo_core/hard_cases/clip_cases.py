@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import tempfile
 from functools import partial
+from pathlib import Path
 
 import numpy as np
+import torch
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.hard_cases import clips
 from genmojo_core.hard_cases.case import Case, hold
-from genmojo_core.hard_cases.runs import Outcome, centre, finished, refused, same_scene
+from genmojo_core.hard_cases.runs import Outcome, centre, checked, finished, refused, same_scene, started
+from genmojo_core.store import scene_hdf5
 
-Property = Callable[[Outcome], str]
+FILE_PRECISION = 1e-3  # scene files keep what changes from frame to frame in half precision
 
 
 def told(outcome: Outcome) -> str:
@@ -179,6 +182,34 @@ def repeatable() -> str:
     return "two runs with one seed are equal bit for bit"
 
 
+def half_precision() -> str:
+    """A caller's half precision does not reach the run: the same scene, bit for bit."""
+    plain = finished(clips.plain(3))
+    run = started(clips.plain(3))
+    with torch.autocast("cpu", dtype=torch.bfloat16):
+        events = list(run)
+    inside = checked(run, events)
+    kinds = {value.dtype for value in inside.run.scene.parameters()}
+    hold(kinds == {torch.float32}, f"parameters are {kinds}")
+    hold(same_scene(plain, inside), "half precision changed the scene")
+    return "under bfloat16 the same bit for bit"
+
+
+def written_and_read() -> str:
+    """A scene that was made, written and read again has the same Gaussians in every frame."""
+    outcome = finished(clips.moved_world(clips.plain(3), (3.0, -2.0, 1.0)))
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "scene.h5"
+        scene_hdf5.write(outcome.scene, path)
+        again = scene_hdf5.read(path)
+    for t in range(3):
+        a, b = outcome.scene.frame(t), again.frame(t)
+        for name in ("means", "quats", "scales", "opacities", "rgb"):
+            gap = float(np.abs(getattr(a, name) - getattr(b, name)).max())
+            hold(gap < FILE_PRECISION, f"{name} of frame {t} changed by {gap:.2g}")
+    return f"{len(outcome.scene.xyz)} Gaussians in 3 frames"
+
+
 def _miss(outcome: Outcome, clip: Clip, t: int) -> float:
     """Pixels from where object 0 is drawn to the middle of its true mask in frame t."""
     rows, columns = np.nonzero(clip.object_mask(0)[t])
@@ -213,4 +244,6 @@ CASES = (
     Case("N16", "pixels at random", nothing_to_follow),
     *(Case("N32", f"frames of {w} x {h} pixels", partial(narrow, w, h)) for w, h in ((1, 24), (24, 1), (5, 7))),
     Case("N31", "the same seed twice", repeatable),
+    Case("N25", "half precision around a run", half_precision),
+    Case("N33", "a scene written and read", written_and_read),
 )  # fmt: skip

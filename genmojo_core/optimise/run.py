@@ -11,7 +11,7 @@ Reading order of the method: motion.py (initial motion), lift.py (first scene), 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from pathlib import Path
 
 import torch
@@ -195,12 +195,19 @@ class Run:
         # of them as with one. The kernels that matter bring threads that sleep (kernels/threads.py).
         threads = torch.get_num_threads()
         torch.set_num_threads(1)
+        events = self._events()
         try:
-            yield from self._events()
+            while True:
+                with torch.autocast("cpu", enabled=False), torch.autocast("cuda", enabled=False):  # float32 (N25)
+                    event = next(events, None)
+                if event is None:
+                    return
+                yield event
         finally:
+            events.close()
             torch.set_num_threads(threads)
 
-    def _events(self) -> Iterator[Event]:
+    def _events(self) -> Generator[Event, None, None]:
         torch.manual_seed(self.config.seed)
         if self.resume and self.run_dir is None:
             raise GenmojoError("argument", "there is no run folder to resume from", "--resume", "give --run-dir")
@@ -340,12 +347,11 @@ class Run:
         frames = draw_frames(candidates, self.config.frames_per_step, self.config.seed, self.progress.step)
         set_rates(self.optimiser, self.progress.fraction(self.clock), self.guard.rate)
         self.optimiser.zero_grad(set_to_none=True)
-        with torch.autocast("cpu", enabled=False), torch.autocast("cuda", enabled=False):  # float32 throughout (N25)
-            outcome = self.objective.evaluate(frames, stage.deform, self.generator)
-            if self.unseen is not None:
-                moment = Moment(self.progress.step / self.progress.total, stage.deform, self.progress.step)
-                self.unseen.add_to(outcome, moment, self.config.weights.unseen, self.generator)
-            outcome.loss.backward()
+        outcome = self.objective.evaluate(frames, stage.deform, self.generator)
+        if self.unseen is not None:
+            moment = Moment(self.progress.step / self.progress.total, stage.deform, self.progress.step)
+            self.unseen.add_to(outcome, moment, self.config.weights.unseen, self.generator)
+        outcome.loss.backward()
         verdict = self.guard.judge(outcome.loss, outcome.parts)
         if verdict == "rollback":
             self.guard.rollback()
