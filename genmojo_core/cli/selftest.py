@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 def add_commands(commands: Any) -> None:
     """Add `selftest`."""
     selftest = commands.add_parser("selftest", help="try hard cases on this machine: numbers stay finite and bounded")
-    selftest.add_argument("--hard", action="store_true", help="all cases, one to two minutes; without it those of "
+    selftest.add_argument("--hard", action="store_true", help="all cases, some minutes; without it those of "
                           "splats and numbers alone, seconds")  # fmt: skip
     selftest.add_argument("--rows", type=names, default=(), metavar="N18,N27", help="only these rows")
     selftest.set_defaults(run=run_selftest)
