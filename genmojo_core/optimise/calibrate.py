@@ -19,15 +19,17 @@ from genmojo_core.optimise.run import Run
 from genmojo_core.store.atomic import write_bytes
 
 _WARM, _STEPS = 3, 10
+_BUSY = 1.5  # wall seconds per CPU second from which the machine is too busy for a figure worth keeping
 
 
 def calibrated() -> Machine:
-    """This machine's calibration: the stored one, else measured now (a few seconds) and stored."""
+    """This machine's calibration: the stored one, else measured now (a few seconds), and stored if it is not busy."""
     known = machine.load()
     if known is not None:
         return known
     measured = measure()
-    keep(measured)
+    if measured.contention < _BUSY:
+        keep(measured)
     return measured
 
 
