@@ -80,7 +80,7 @@ class Model:
 
 
 # Fitted on crossing, gold-fish, blender-cross and blender-trio. The error of dB is that per clip, each left out, with
-# dogs-jump (3 dB too high) and tennis (9 dB too high: motion blur) beside them.
+# dogs-jump (3 dB too high) and tennis (9 dB too high) beside them.
 MODEL = Model(
     step=(61.05, 1.885, 3.929, 47.24, 0), motion=(-4.024, 1, 1.158, 0.1721),
     decibel=(13.02, -0.02128, -0.0201, 2.486, 1.172, 0.8477), decibel_error=4.3, seconds_error=0.23,
