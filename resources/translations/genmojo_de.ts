@@ -397,11 +397,11 @@
     </message>
     <message>
       <source>Instead of the selected object's mask</source>
-      <translation type="unfinished" />
+      <translation>Anstelle der Maske des gewählten Objekts</translation>
     </message>
     <message>
       <source>What is drawn replaces its mask in every frame; runs use the new one.</source>
-      <translation type="unfinished" />
+      <translation>Was gezeichnet wird, ersetzt seine Maske in jedem Bild; Läufe nehmen die neue.</translation>
     </message>
     <message>
       <source>Choose {name}</source>
@@ -2157,7 +2157,7 @@
     </message>
     <message>
       <source>The run uses the masks that were corrected here.</source>
-      <translation type="unfinished" />
+      <translation>Der Lauf nimmt die hier verbesserten Masken.</translation>
     </message>
     <message>
       <source>Expected: {time} (± {spread}), {psnr:.1f} dB (± {error:.1f}), </source>
@@ -2341,12 +2341,13 @@
     </message>
     <message>
       <source>Map of directions</source>
-      <translation type="unfinished" />
+      <translation>Karte der Richtungen</translation>
     </message>
     <message>
       <source>Every direction: green was supervised or is within {degrees:.0f}° of it, faint is a guess.
 Points are supervised views, the ring is this view. Click, drag or use the arrow keys to turn.</source>
-      <translation type="unfinished" />
+      <translation>Alle Richtungen: Grün wurde überwacht oder liegt höchstens {degrees:.0f}° davon entfernt, Blasses ist geraten.
+Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen oder Pfeiltasten drehen.</translation>
     </message>
     <message>
       <source>Azimuth</source>
@@ -3462,11 +3463,11 @@ Points are supervised views, the ring is this view. Click, drag or use the arrow
     </message>
     <message>
       <source>Draw the selected mask anew</source>
-      <translation type="unfinished" />
+      <translation>Gewählte Maske neu zeichnen</translation>
     </message>
     <message>
       <source>Step 1; what is drawn replaces the object's mask.</source>
-      <translation type="unfinished" />
+      <translation>Schritt 1; was gezeichnet wird, ersetzt die Maske des Objekts.</translation>
     </message>
     <message>
       <source>Step 1 of 4.</source>
