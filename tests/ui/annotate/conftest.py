@@ -37,6 +37,6 @@ def workspace(qapp, qtbot, clip_folder, tmp_path):
     made.open_with(open_session(state, clip_folder, "Ada", tmp_path / "a.genmojo"))
     menus.set_workspace("annotate")
     qtbot.waitUntil(lambda: bool(made.objects.figures), timeout=60_000)
-    qtbot.waitUntil(lambda: made.screen_link.painted == 0, timeout=20_000)
+    qtbot.waitUntil(lambda: made.screen_link.painted == 0, timeout=60_000)
     yield made
     made.close()

@@ -49,7 +49,7 @@ def test_the_whole_path_with_mouse_and_keys(workspace, qtbot, tmp_path, monkeypa
     track, t = next(iter(session.annotation.tracks)), 6
     session.select_track(track)
     session.go(t)
-    qtbot.waitUntil(lambda: workspace.screen_link.painted == t)
+    qtbot.waitUntil(lambda: workspace.screen_link.painted == t, timeout=60_000)
     x, y = map(float, session.annotation.track(track).xy[t])
     before = session.annotation.digest()
     shift = 30 / workspace.canvas.mapping.zoom
@@ -68,7 +68,7 @@ def test_the_whole_path_with_mouse_and_keys(workspace, qtbot, tmp_path, monkeypa
     target = tmp_path / "out.npz"
     monkeypatch.setattr("PySide6.QtWidgets.QFileDialog.getSaveFileName", lambda *a, **k: (str(target), ""))
     workspace.table.trigger("annotate.file.export")
-    qtbot.waitUntil(target.exists, timeout=20_000)
+    qtbot.waitUntil(target.exists, timeout=60_000)
     stored = read_tracks(target, session.annotation.size)
     assert stored.xy.shape[:2] == (len(places), session.annotation.frames)
 
@@ -142,7 +142,7 @@ def test_zoom_survives_frame_changes_and_nudges_are_a_quarter_pixel(workspace, q
     canvas.zoom(3.0)
     zoom = canvas.mapping
     session.go(5)
-    qtbot.waitUntil(lambda: workspace.screen_link.painted == 5)
+    qtbot.waitUntil(lambda: workspace.screen_link.painted == 5, timeout=60_000)
     assert canvas.mapping == zoom
     session.go(0)
     x, y = session.annotation.track(session.track).xy[0].tolist()
@@ -316,4 +316,4 @@ def test_a_step_without_points_is_not_done_and_states_are_readable_in_both_theme
         theme.apply(qapp, name)
         workspace.state.set(theme=name)
         shade = workspace.review.tree.palette().text().color()
-        qtbot.waitUntil(lambda shade=shade: item.foreground(1).color() == shade, timeout=5_000)
+        qtbot.waitUntil(lambda shade=shade: item.foreground(1).color() == shade, timeout=60_000)
