@@ -8,22 +8,20 @@ as Markdown and writes it with all figures to DIR/2.json. Contact sheets are in 
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import shutil
-import signal
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Iterable
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from table import Check
+from table import ROOT, Bench, Check, Rows, main
 
-ROOT = Path(__file__).resolve().parents[2]
 BASELINES = (
     "LK chains 42.6/32.5 and 47.1/33.8, centroid 20.4/22.6 and 9.9/9.4, mask-stabilised flow 11.6/8.4 and 9.2/10.9"
 )
@@ -41,36 +39,31 @@ class Call:
     errors: str
 
 
-@dataclass
-class Bench:
-    """Where things are; `log` collects the commands of the row being measured."""
+class Job(Bench):
+    """Runs commands of a row and says what they took."""
 
-    work: Path
-    data: Path
-    log: list[str] = field(default_factory=list)
-
-    def run(self, argv: list[str], folder: Path | None = None) -> Call:
+    def call(self, argv: list[str], folder: Path | None = None) -> Call:
         """Run a command and wait; its memory and CPU are its own, not those of earlier ones."""
         self.log.append(" ".join(argv))
-        out, err = self.work / "stdout.txt", self.work / "stderr.txt"
         environment = {**os.environ, "PYTHONPATH": str(ROOT)}
         start = time.monotonic()
-        with open(out, "wb") as stdout, open(err, "wb") as stderr:
+        with tempfile.TemporaryFile() as stdout, tempfile.TemporaryFile() as stderr:
             child = subprocess.Popen(argv, stdout=stdout, stderr=stderr, cwd=folder or self.work, env=environment)
             try:
                 _, status, usage = os.wait4(child.pid, 0)
             except BaseException:
                 child.kill()
                 raise
+            seconds = time.monotonic() - start
             child.returncode = os.waitstatus_to_exitcode(status)
-        text = out.read_text(errors="replace").strip()
-        result = json.loads(text) if text.startswith("{") else {}
-        return Call(child.returncode, time.monotonic() - start, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024,
-                    result, err.read_text(errors="replace"))  # fmt: skip
+            said = [(stream.seek(0), stream.read().decode(errors="replace"))[1] for stream in (stdout, stderr)]
+        result = json.loads(said[0]) if said[0].startswith("{") else {}
+        cpu, peak = usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+        return Call(child.returncode, seconds, cpu, peak, result, said[1])
 
     def genmojo(self, *argv: str, expect: int = 0) -> Call:
         """Run `genmojo ... --json`. Raises SystemExit with its stderr if it ends in another way than expected."""
-        call = self.run([sys.executable, "-m", "genmojo_core.cli.main", *argv, "--json"])
+        call = self.call([sys.executable, "-m", "genmojo_core.cli.main", *argv, "--json"])
         if call.code != expect:
             raise RuntimeError(f"genmojo {' '.join(argv)} ended with {call.code}: {call.errors[-800:]}")
         return call
@@ -96,7 +89,7 @@ class Bench:
 # ---- rows ---------------------------------------------------------------------------------------------------------
 
 
-def demo(bench: Bench, key: str) -> list[Check]:
+def demo(bench: Job, key: str) -> list[Check]:
     """The embedded clip, installation already there."""
     shutil.rmtree(bench.work / "demo", ignore_errors=True)
     call = bench.genmojo("demo", "-o", "demo", "--no-app")
@@ -108,26 +101,26 @@ def demo(bench: Bench, key: str) -> list[Check]:
     ]
 
 
-def bootstrap(bench: Bench, key: str) -> list[Check]:
+def bootstrap(bench: Job, key: str) -> list[Check]:
     """`bootstrap.py demo` on a clean clone: installs everything, so it takes as long as the downloads take."""
     clone = bench.work / "clone"
     shutil.rmtree(clone, ignore_errors=True)
-    bench.run(["git", "clone", "-q", str(ROOT), str(clone)])
-    first = bench.run(["python3", "packaging/bootstrap.py", "demo"], clone)
-    again = bench.run(["python3", "packaging/bootstrap.py", "demo"], clone)
+    bench.call(["git", "clone", "-q", str(ROOT), str(clone)])
+    first = bench.call(["python3", "packaging/bootstrap.py", "demo"], clone)
+    again = bench.call(["python3", "packaging/bootstrap.py", "demo"], clone)
     if first.code or again.code:
         raise RuntimeError(f"bootstrap.py demo ended with {first.code}, {again.code}: {again.errors[-800:]}")
     return [Check("first time with install s", first.seconds), Check("after install s", again.seconds, 180, True)]
 
 
-def optimised(bench: Bench, key: str, clip: Path, *options: str) -> tuple[Call, Call]:
+def optimised(bench: Job, key: str, clip: Path, *options: str) -> tuple[Call, Call]:
     """`optimize`, then `evaluate` with a sheet."""
     scene = str(bench.scene(key))
     call = bench.genmojo("optimize", str(clip), "-o", scene, *options)
     return call, bench.genmojo("evaluate", scene, str(clip), "--sheet", bench.sheet(key))
 
 
-def crossing_draft(bench: Bench, key: str) -> list[Check]:
+def crossing_draft(bench: Job, key: str) -> list[Check]:
     """Draft within 100 s; the plate without any object already has 24.2 dB of the full frame."""
     call, scores = optimised(bench, key, bench.clip("crossing"), "--frames", "0:24", "--preset", "draft")
     return [
@@ -139,10 +132,10 @@ def crossing_draft(bench: Bench, key: str) -> list[Check]:
     ]
 
 
-def standard(name: str) -> Callable[[Bench, str], list[Check]]:
+def standard(name: str) -> Callable[[Job, str], list[Check]]:
     """A DAVIS clip at standard: the paper's MOSE mean, within 12 minutes."""
 
-    def row(bench: Bench, key: str) -> list[Check]:
+    def row(bench: Job, key: str) -> list[Check]:
         call, scores = optimised(bench, key, bench.clip(name), "--frames", "0:24", "--preset", "standard")
         return [
             Check("wall s", call.seconds, 720, at_most=True),
@@ -154,10 +147,10 @@ def standard(name: str) -> Callable[[Bench, str], list[Check]]:
     return row
 
 
-def blender(name: str, ate: float, mte: float) -> Callable[[Bench, str], list[Check]]:
+def blender(name: str, ate: float, mte: float) -> Callable[[Job, str], list[Check]]:
     """Exact truth: reconstruction, instance maps, tracks from the scene alone, unseen views."""
 
-    def row(bench: Bench, key: str) -> list[Check]:
+    def row(bench: Job, key: str) -> list[Check]:
         clip = bench.clip(name)
         call, scores = optimised(bench, key, clip, "--preset", "standard")
         tracks = tracked(bench, key, clip)
@@ -184,10 +177,10 @@ def blender(name: str, ate: float, mte: float) -> Callable[[Bench, str], list[Ch
     return row
 
 
-def blender_alone(name: str) -> Callable[[Bench, str], list[Check]]:
+def blender_alone(name: str) -> Callable[[Job, str], list[Check]]:
     """The same without depth and cameras, as a user's clip comes."""
 
-    def row(bench: Bench, key: str) -> list[Check]:
+    def row(bench: Job, key: str) -> list[Check]:
         clip = bench.clip(name)
         call, scores = optimised(bench, key, clip, "--preset", "standard", "--ignore", "depth,cameras")
         tracks = tracked(bench, key, clip)
@@ -205,7 +198,7 @@ def blender_alone(name: str) -> Callable[[Bench, str], list[Check]]:
     return row
 
 
-def tracked(bench: Bench, key: str, clip: Path) -> Call:
+def tracked(bench: Job, key: str, clip: Path) -> Call:
     """Tracks from the scene file alone: the clip's folder is away while `genmojo tracks` works."""
     import numpy as np
 
@@ -223,7 +216,7 @@ def tracked(bench: Bench, key: str, clip: Path) -> Call:
     return bench.genmojo("metrics", f"{key}-tracks.npz", str(truth))
 
 
-def cups(bench: Bench, key: str) -> list[Check]:
+def cups(bench: Job, key: str) -> list[Check]:
     """A home video without masks, one cup boxed in frame 0."""
     video = bench.clip("cups") / "cups.mp4"
     scene = str(bench.scene(key))
@@ -232,7 +225,7 @@ def cups(bench: Bench, key: str) -> list[Check]:
     return [Check("finished", 1, 1), Check("wall s", call.seconds), *costs(call), *reported(call, "psnr", "psnr_full")]
 
 
-def gold_fish_hd(bench: Bench, key: str) -> list[Check]:
+def gold_fish_hd(bench: Job, key: str) -> list[Check]:
     """60 frames of 1920 x 1080, 5 objects, 120 s: reads, plans, runs in under 6 GB."""
     clip = upscaled(bench, "gold-fish", (1920, 1080), 60)
     scene = str(bench.scene(key))
@@ -246,7 +239,7 @@ def gold_fish_hd(bench: Bench, key: str) -> list[Check]:
     ]
 
 
-def upscaled(bench: Bench, name: str, size: tuple[int, int], frames: int) -> Path:
+def upscaled(bench: Job, name: str, size: tuple[int, int], frames: int) -> Path:
     """A larger copy of the first frames of a clip (cubic frames, nearest masks with their palette)."""
     import cv2
 
@@ -268,13 +261,13 @@ def upscaled(bench: Bench, name: str, size: tuple[int, int], frames: int) -> Pat
     return folder
 
 
-def still(bench: Bench, key: str) -> list[Check]:
+def still(bench: Job, key: str) -> list[Check]:
     """One frame is a still, and works."""
     _, scores = optimised(bench, key, bench.clip("crossing"), "--frames", "0:1", "--preset", "draft")
     return [Check("psnr", scores.result["psnr"], 20), *reported(scores, "psnr_full", "instance_iou")]
 
 
-def bad_input(bench: Bench, key: str) -> list[Check]:
+def bad_input(bench: Job, key: str) -> list[Check]:
     """One sentence, exit 2, nothing written, for each of the issue's bad inputs."""
     import cv2
     import numpy as np
@@ -302,7 +295,7 @@ def bad_input(bench: Bench, key: str) -> list[Check]:
     return checks
 
 
-def refused(bench: Bench, name: str, clip: str, output: Path, options: Iterable[str]) -> Check:
+def refused(bench: Job, name: str, clip: str, output: Path, options: Iterable[str]) -> Check:
     """1 if the command says one sentence, ends with 2 and writes nothing."""
     call = bench.genmojo("optimize", clip, "-o", str(output), *options, expect=2)
     lines = [line for line in call.errors.replace("\r", "\n").split("\n") if line.strip() and "% |" not in line]
@@ -321,74 +314,31 @@ def costs(call: Call) -> list[Check]:
             "first_scene_seconds", "gaussians")]  # fmt: skip
 
 
-ROWS: dict[str, tuple[str, str, Callable[[Bench, str], list[Check]]]] = {
-    "demo": ("embedded", "genmojo demo (installed)", demo),
-    "bootstrap": ("embedded", "bootstrap.py demo on a clean clone", bootstrap),
-    "crossing-draft": ("crossing 0:24", "--preset draft", crossing_draft),
-    "crossing": ("crossing 0:24", "--preset standard", standard("crossing")),
-    "gold-fish": ("gold-fish 0:24", "--preset standard", standard("gold-fish")),
-    "blender-cross": ("blender-cross", "--preset standard, tracks, evaluate", blender("blender-cross", 11, 8)),
-    "blender-trio": ("blender-trio", "--preset standard, tracks, evaluate", blender("blender-trio", 9, 8)),
-    "cross-alone": ("blender-cross", "--ignore depth,cameras", blender_alone("blender-cross")),
-    "trio-alone": ("blender-trio", "--ignore depth,cameras", blender_alone("blender-trio")),
-    "cups": ("cups (mp4, no masks)", "--preset draft, one --box", cups),
-    "gold-fish-hd": ("gold-fish 1920x1080, 60 frames", "--preset draft --budget 120", gold_fish_hd),
-    "still": ("crossing, one frame", "--preset draft", still),
-    "bad-input": ("bad input", "one sentence, exit 2, nothing written", bad_input),
+def of(row: Callable[[Job, str], list[Check]], key: str) -> Callable[[Bench], list[Check]]:
+    """A row of the table; its key names its files."""
+    return lambda bench: row(Job(bench.work, bench.data, bench.log), key)
+
+
+ROWS: Rows = {
+    key: (title, of(row, key))
+    for key, title, row in (
+        ("demo", "embedded: genmojo demo (installed)", demo),
+        ("crossing-draft", "crossing 0:24 --preset draft", crossing_draft),
+        ("crossing", "crossing 0:24 --preset standard", standard("crossing")),
+        ("gold-fish", "gold-fish 0:24 --preset standard", standard("gold-fish")),
+        ("blender-cross", "blender-cross --preset standard, tracks, evaluate", blender("blender-cross", 11, 8)),
+        ("blender-trio", "blender-trio --preset standard, tracks, evaluate", blender("blender-trio", 9, 8)),
+        ("cross-alone", "blender-cross --ignore depth,cameras", blender_alone("blender-cross")),
+        ("trio-alone", "blender-trio --ignore depth,cameras", blender_alone("blender-trio")),
+        ("cups", "cups (mp4, no masks) --preset draft, one --box", cups),
+        ("gold-fish-hd", "gold-fish 1920x1080, 60 frames --preset draft --budget 120", gold_fish_hd),
+        ("still", "crossing, one frame --preset draft", still),
+        ("bad-input", "bad input: one sentence, exit 2, nothing written", bad_input),
+        ("bootstrap", "embedded: bootstrap.py demo on a clean clone", bootstrap),
+    )
 }
 
-
-def main() -> int:
-    """Measure the rows that are asked for and not yet known, then print the table."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--work", type=Path, required=True, help="folder for clips, scenes, sheets and results")
-    parser.add_argument("--data", type=Path, default=ROOT.parent / "shared" / "data")
-    parser.add_argument("--only", default="", help=f"comma-separated rows of {', '.join(ROWS)}")
-    parser.add_argument("--again", action="store_true", help="measure anew what is known already")
-    args = parser.parse_args()
-    wanted = [key for key in args.only.split(",") if key] or [key for key in ROWS if key != "bootstrap"]
-    sys.path.insert(0, str(ROOT))
-    bench = Bench(args.work.resolve(), args.data.resolve())
-    (bench.work / "results").mkdir(parents=True, exist_ok=True)
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
-    for key in wanted:
-        measure(bench, key, args.again)
-    report(bench)
-    return 0
-
-
-def measure(bench: Bench, key: str, again: bool) -> None:
-    """One row, unless its result is there already."""
-    kept = bench.work / "results" / f"{key}.json"
-    if kept.exists() and not again:
-        return
-    clip, command, row = ROWS[key]
-    print(f"{time.strftime('%H:%M:%S')} {key} ...", file=sys.stderr, flush=True)
-    bench.log = []
-    start = time.monotonic()
-    failure = ""
-    try:
-        checks = row(bench, key)
-    except (RuntimeError, OSError, KeyError) as error:
-        checks, failure = [], f"{type(error).__name__}: {error}"
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout
-    result = {"row": key, "clip": clip, "command": command, "met": not failure and all(c.met for c in checks),
-              "failure": failure, "checks": [{**asdict(c), "met": c.met, "text": c.text()} for c in checks],
-              "figures": {c.name: c.value for c in checks}, "seconds": time.monotonic() - start,
-              "commands": bench.log, "commit": commit.strip(), "load": os.getloadavg()[0]}  # fmt: skip
-    kept.write_text(json.dumps(result, indent=1))
-
-
-def report(bench: Bench) -> None:
-    """The table of all known rows, and everything as JSON."""
-    rows = [json.loads(path.read_text()) for key in ROWS if (path := bench.work / "results" / f"{key}.json").exists()]
-    print("| clip | command | figures (limit) | met | commit |\n|---|---|---|---|---|")
-    for row in rows:
-        shown = row["failure"].replace("\n", " ")[:400] or ", ".join(check["text"] for check in row["checks"])
-        print(f"| {row['clip']} | {row['command']} | {shown} | {'yes' if row['met'] else 'NO'} | {row['commit']} |")
-    print(f"\nKnown ATE/MTE without any scene (cross, trio): {BASELINES}.")
-    (bench.work / "2.json").write_text(json.dumps(rows, indent=1))
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    status = main(ROWS, __doc__ or "", "2")
+    print(f"\nKnown ATE/MTE without any scene (cross, trio): {BASELINES}.")
+    sys.exit(status)

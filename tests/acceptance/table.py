@@ -78,6 +78,7 @@ def main(rows: Rows, about: str, name: str) -> int:
     parser.add_argument("--only", default="", help=f"comma-separated rows of {', '.join(rows)}")
     parser.add_argument("--again", action="store_true", help="measure anew what is known already")
     args = parser.parse_args()
+    sys.path.insert(0, str(ROOT))
     bench = Bench(args.work.resolve(), args.data.resolve())
     (bench.work / "results").mkdir(parents=True, exist_ok=True)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
@@ -104,6 +105,7 @@ def measure(bench: Bench, key: str, of: tuple[str, Callable[[Bench], list[Check]
     result: dict[str, Any] = {
         "row": key, "title": title, "met": not failure and all(c.met for c in checks), "failure": failure,
         "checks": [{**asdict(c), "met": c.met, "text": c.text()} for c in checks], "commands": bench.log,
+        "figures": {c.name: c.value for c in checks},
         "seconds": time.monotonic() - start, "commit": commit.strip(), "load": os.getloadavg()[0],
     }  # fmt: skip
     kept.write_text(json.dumps(result, indent=1))
