@@ -19,7 +19,7 @@ from genmojo_core.effects import decide
 from genmojo_core.errors import GenmojoError
 from genmojo_core.estimate.complete import complete
 from genmojo_core.events import EffectChanged, Event, Failed, Finished
-from genmojo_core.measure import truth
+from genmojo_core.measure import sources, truth
 from genmojo_core.measure.reconstruction import SHORT_SIDE, reconstruction
 from genmojo_core.measure.scoring import novel_figures
 from genmojo_core.optimise.methods import prepared
@@ -71,7 +71,9 @@ class Plan:
 
 
 def ablate(clip_path: str, plan: Plan, folder: Path, hear: Callable[[str, Event], None]) -> list[dict[str, Any]]:
-    """One row per variant and seed; rows that lie in `folder` already, of the same configuration, are not run again.
+    """One row per variant and seed; rows that lie in `folder` already are not run again.
+
+    Only rows of the same clip, configuration and program (`sources.digest`) are taken over.
 
     Args:
         hear: takes the row's name and every event of its run.
@@ -92,7 +94,13 @@ def ablate(clip_path: str, plan: Plan, folder: Path, hear: Callable[[str, Event]
             if row is None:
                 listen = partial(hear, f"{name}, seed {seed}")
                 figures = run_variant(clip_path, known[name], config, path.with_suffix(".h5"), listen)
-                row = {"variant": name, "seed": seed, "digest": _digest(config, clip_path), **figures}
+                row = {
+                    "variant": name,
+                    "seed": seed,
+                    "digest": _digest(config, clip_path),
+                    "program": sources.digest(),
+                    **figures,
+                }
                 write_bytes(path, json_text(row).encode())
             rows.append(row)
     return rows
@@ -168,12 +176,13 @@ def summary(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
 
 def _digest(config: RunConfig, clip_path: str) -> str:
     """What makes two rows comparable."""
-    text = json.dumps([asdict(config), str(Path(clip_path).resolve())], sort_keys=True, default=str)
+    made_of = [asdict(config), str(Path(clip_path).resolve()), sources.digest()]
+    text = json.dumps(made_of, sort_keys=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def _kept(path: Path, config: RunConfig, clip_path: str) -> dict[str, Any] | None:
-    """A finished row, if it is there and of the same configuration."""
+    """A finished row, if it is there and of the same clip, configuration and program."""
     try:
         row = json.loads(path.read_text())
     except (OSError, ValueError):

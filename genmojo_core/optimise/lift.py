@@ -19,7 +19,7 @@ from genmojo_core.optimise.first_poses import Moves
 from genmojo_core.optimise.motion import ObjectMotion
 from genmojo_core.optimise.objective import TrackSupervision
 from genmojo_core.scene.appearance import FrameGain
-from genmojo_core.scene.background import background_points
+from genmojo_core.scene.background import background_points, never_shown
 from genmojo_core.scene.deform import DeformationField, FieldShape
 from genmojo_core.scene.gaussians import Gaussians
 from genmojo_core.scene.initialise import Points, points_of_image, project, surface_axes, uncovered
@@ -78,6 +78,7 @@ def lift(clip: Clip, plan: EffectPlan, config: RunConfig, motions: Sequence[Move
     if plan.on("background") and config.background_gaussians:
         cloud = background_points(clip, config.background_gaussians)
         background = Gaussians.from_surface(_tensor(cloud.xyz), _tensor(cloud.rgb), _axes(cloud, 1.0), 0.95)
+        background.invented = torch.from_numpy(never_shown(cloud.xyz, clip))
     labels = len(objects) if plan.on("instance_labels") else 1
     cameras = replace(clip.cameras.value, dilation=DILATION)  # at the optimised size, whatever size they came in
     scene = Scene4D(objects, background, gain, cameras, Layout(labels, plan.on("flow")))

@@ -1,4 +1,8 @@
-"""Background Gaussians: the plate and what other cameras see of it, unprojected; positions stay fixed (METHOD.md 6)."""
+"""Background Gaussians: the plate and what other cameras see of it, unprojected; positions stay fixed (METHOD.md 6).
+
+What objects hide in every frame keeps the plate's colours: a loss sees it only through the objects' soft rims, and
+would make it whatever mends those.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +10,7 @@ import cv2
 import numpy as np
 
 from genmojo_core.clip.clip import Clip
-from genmojo_core.scene.initialise import Points, points_of_image, uncovered
+from genmojo_core.scene.initialise import Points, points_of_image, project, uncovered
 
 STEEPEST = 12.0  # depth steps per pixel, in pixel widths, over which the ground is followed at grazing angles
 MARGIN = 1.02  # background stays at least 2 % behind the objects that pass in front of it
@@ -48,3 +52,15 @@ def _behind_objects(clip: Clip, depth: np.ndarray) -> np.ndarray:
         return depth
     nearest = np.where(clip.masks.value > 0, clip.depth.value, 0.0).max(axis=0)
     return np.maximum(depth, (nearest * MARGIN).astype(depth.dtype))
+
+
+def never_shown(xyz: np.ndarray, clip: Clip) -> np.ndarray:  # (N, 3) world -> (N,) bool
+    """Points of the background that fall on an object's mask, on void or outside the picture in every frame."""
+    shown = np.zeros(len(xyz), bool)
+    for t in range(len(clip)):
+        free = clip.masks.valid[t] & (clip.masks.value[t] == 0)
+        xy, _ = project(xyz, clip.cameras.value.view(t))
+        inside = np.all((xy >= 0) & (xy < clip.size), axis=1)
+        column, row = np.where(inside[:, None], xy, 0).astype(int).T
+        shown |= inside & free[row, column]
+    return ~shown

@@ -17,7 +17,8 @@ class Gaussians(nn.Module):
         logit_opacities: (N,). dc: (N, 3) constant spherical-harmonic coefficient, rgb = 0.5 + SH_C0 dc.
 
     `uid` (N,) int64 is stable over density control; `next_uid` is the first unused one. `invented` (N,) bool: drawn by
-    a prior where no frame shows anything, or grown from such a one.
+    a prior where no frame shows anything, or grown from such a one; of the background, painted in where no frame shows
+    it.
     """
 
     NAMES = ("means", "quats", "log_scales", "logit_opacities", "dc")

@@ -116,7 +116,8 @@ class Scene4D(nn.Module):
     """All objects, the background and the light.
 
     Args:
-        objects: K object models in the clip's order. background: world-space Gaussians with fixed means, or None.
+        objects: K object models in the clip's order. background: world-space Gaussians with fixed means, or None; its
+        `invented` ones stay as they are.
         gain: light per frame, or None. cameras: the clip's, for the optimised image size. layout: feature channels.
     """
 
@@ -165,7 +166,8 @@ class Scene4D(nn.Module):
             g = self.background
             rgb = 0.5 + SH_C0 * g.dc
             rgb = rgb if gain is None else rgb * gain
-            parts.append((g.means, g.quats, g.scales(), g.opacities(), self._features(rgb, None, None)))
+            columns = (g.means, g.quats, g.scales(), g.opacities(), self._features(rgb, None, None))
+            parts.append(_held(columns, g.invented))
         return Composed(*(torch.cat(columns) for columns in zip(*parts, strict=True)))
 
     def _features(self, rgb: Tensor, k: int | None, flow: Tensor | None) -> Tensor:
@@ -186,3 +188,10 @@ class Scene4D(nn.Module):
         here, _ = safemath.project(now.means.detach(), self.w2c[t], self.K[t], near)
         there, z = safemath.project(after.means, self.w2c[t + 1], self.K[t + 1], near)
         return torch.where((z > near)[:, None], there - here, torch.zeros_like(here))
+
+
+def _held(columns: tuple[Tensor, ...], rows: Tensor) -> tuple[Tensor, ...]:
+    """Columns (N, ...) of which some rows (N,) bool get no gradient."""
+    if not bool(rows.any()):
+        return columns
+    return tuple(torch.where(rows.reshape(-1, *[1] * (c.dim() - 1)), c.detach(), c) for c in columns)

@@ -2,19 +2,19 @@
 
     python tests/acceptance/6.py --work DIR [--only frozen,crops,fit] [--again] [--data ../shared/data]
 
-Results are kept in DIR/results, so an interrupted run goes on where it stopped; --again measures anew. Prints the table
-as Markdown and writes it with all figures to DIR/6.json. Scenes are DIR/scenes/*.h5. One seed.
+Results are kept in DIR/results, so an interrupted run goes on where it stopped; --again measures anew, but scenes in
+DIR/scenes and ablation rows that the same program made are taken over. Prints the table as Markdown and writes it with
+all figures to DIR/6.json. One seed, except for the ablation.
 """
 
 from __future__ import annotations
 
 import json
 import sys
-import time
 from collections.abc import Callable
-from typing import Any
 
 from ablation_rows import ROWS as ABLATION
+from standard_runs import scores
 from table import Bench, Check, Rows, main
 
 FLAT = {"blender-cross": 15.6, "blender-trio": 17.6}  # dB of the true silhouette in one flat colour at ±90 and 180
@@ -77,25 +77,14 @@ def fit(bench: Bench) -> list[Check]:
     ]
 
 
-def run(bench: Bench, name: str, key: str, *options: str) -> tuple[dict[str, Any], float]:
-    """The scores of a clip at `standard`, and the wall seconds of the run."""
-    scene = bench.work / "scenes" / f"{key}.h5"
-    scene.parent.mkdir(exist_ok=True)
-    clip, start = str(bench.data / name), time.monotonic()
-    program = ("-m", "genmojo_core.cli.main")
-    bench.python(*program, "optimize", clip, "-o", str(scene), "--preset", "standard", *options, "--json")
-    seconds = time.monotonic() - start
-    return json.loads(bench.python(*program, "evaluate", str(scene), clip, "--json")), seconds
-
-
 def novel(name: str) -> Callable[[Bench], list[Check]]:
     """Unseen views against truth, with the prior and without; tracks beside them."""
 
     def row(bench: Bench) -> list[Check]:
-        with_it, _ = run(bench, name, f"{name}-prior")
-        without, _ = run(bench, name, f"{name}-none", "--prior", "none")
+        with_it = scores(bench, name, "prior")
+        without = scores(bench, name, "none", "--prior", "none")
         ours, bare = (
-            {group: means(scores["novel"], views) for group, views in GROUPS.items()} for scores in (with_it, without)
+            {group: means(one["novel"], views) for group, views in GROUPS.items()} for one in (with_it, without)
         )
         checks = [
             Check("±30 IoU", ours["±30"]["iou"], 0.85),
@@ -110,10 +99,10 @@ def novel(name: str) -> Callable[[Bench], list[Check]]:
             ]
         figures = ("ate", "mte", "oa", "hidden")
         return checks + [
-            Check(f"{figure}{said}", scores[figure])
-            for scores, said in ((with_it, ""), (without, " without"))
+            Check(f"{figure}{said}", one[figure])
+            for one, said in ((with_it, ""), (without, " without"))
             for figure in figures
-            if figure in scores
+            if figure in one
         ]
 
     return row
@@ -126,8 +115,8 @@ def means(views: dict[str, dict[str, float]], names: tuple[str, ...]) -> dict[st
 
 def crossing(bench: Bench) -> list[Check]:
     """Whole static lift and motion of crossing 0:24 with the embedded prior."""
-    scores, seconds = run(bench, "crossing", "crossing-prior", "--frames", "0:24", "--budget", "15m")
-    return [Check("wall s", seconds, 900, at_most=True), Check("psnr", scores["psnr"])]
+    got = scores(bench, "crossing", "prior", "--frames", "0:24", "--budget", "15m")
+    return [Check("wall s", got["seconds"], 900, at_most=True), Check("psnr", got["psnr"])]
 
 
 ROWS: Rows = {

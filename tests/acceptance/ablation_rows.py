@@ -1,14 +1,15 @@
 """Rows of issue 6's table: tracks from the scene alone and the order of the ablation, against the Blender clips' truth.
 
-Scenes and ablation rows are kept in the table's folder. An ablation is 18 runs of two minutes at most.
+Scenes and ablation rows are kept in the table's folder, and used again only by the program that made them. An ablation
+is 18 runs of two minutes at most.
 """
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from typing import Any
 
+from standard_runs import genmojo, scores
 from table import Bench, Check, Rows
 
 CHAIN = {"cross": 11.6, "trio": 9.2}  # ATE of the mask-stabilised chain (BLENDER.md)
@@ -18,27 +19,11 @@ BELOW_CHAIN = 0.65  # 35 % below it
 WITHOUT_INPUTS = 1.5
 
 
-def genmojo(bench: Bench, *argv: str) -> dict[str, Any]:
-    """A command's JSON."""
-    result: dict[str, Any] = json.loads(bench.python("-m", "genmojo_core.cli.main", *argv, "--json"))
-    return result
-
-
-def scores(bench: Bench, name: str, kind: str, *options: str) -> dict[str, Any]:
-    """`evaluate` of the clip's scene at standard, optimised if no row has done so yet."""
-    scene = bench.work / "scenes" / f"blender-{name}-{kind}.h5"
-    scene.parent.mkdir(exist_ok=True)
-    clip = str(bench.data / f"blender-{name}")
-    if not scene.exists():
-        genmojo(bench, "optimize", clip, "-o", str(scene), "--preset", "standard", *options)
-    return genmojo(bench, "evaluate", str(scene), clip)
-
-
 def tracks(name: str) -> Callable[[Bench], list[Check]]:
     """Tracks of the scene alone, all frames, in pixels of 256 x 256."""
 
     def row(bench: Bench) -> list[Check]:
-        got = scores(bench, name, "prior")
+        got = scores(bench, f"blender-{name}", "prior")
         ate, mte, hidden = LIMITS[name]
         return [
             Check("ate", got["ate"], min(ate, BELOW_CHAIN * CHAIN[name]), at_most=True),
@@ -55,7 +40,8 @@ def guessed(name: str) -> Callable[[Bench], list[Check]]:
     """The same without depth and cameras."""
 
     def row(bench: Bench) -> list[Check]:
-        given, got = scores(bench, name, "prior"), scores(bench, name, "guessed", "--ignore", "depth,cameras")
+        given = scores(bench, f"blender-{name}", "prior")
+        got = scores(bench, f"blender-{name}", "guessed", "--ignore", "depth,cameras")
         return [Check("ate ratio", got["ate"] / given["ate"], WITHOUT_INPUTS, at_most=True),
                 *(Check(key, got.get(key)) for key in ("ate", "mte", "hidden", "oa", "ate_3d_percent"))]  # fmt: skip
 

@@ -59,6 +59,18 @@ def test_a_row_that_the_budget_cut_short_says_so(tmp_path):
     assert row["steps"] < 502 and any("the budget ended a run" in note for note in row["notes"])
 
 
+def test_rows_of_another_program_are_not_mixed_in(tmp_path, monkeypatch):
+    ran = []
+    monkeypatch.setattr(ablation, "run_variant", lambda *_: ran.append(1) or {"psnr": 20.0 + len(ran)})
+    plan = ablation.Plan(("full", "no_prior"), (0,), small_config())
+    (tmp_path / "runs").mkdir()
+    first = ablation.ablate("clip", plan, tmp_path, lambda *_: None)
+    assert ablation.ablate("clip", plan, tmp_path, lambda *_: None) == first and len(ran) == 2
+    monkeypatch.setattr(ablation.sources, "digest", lambda: "another")
+    again = ablation.ablate("clip", plan, tmp_path, lambda *_: None)
+    assert len(ran) == 4 and [row["psnr"] for row in again] == [23.0, 24.0]
+
+
 @pytest.mark.slow
 def test_rows_are_measured_against_truth_and_not_run_twice(tmp_path):
     base = replace(spec("crossing-shapes"), frames=4, size=(112, 63))

@@ -5,10 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import torch
 
 from genmojo_core.clip.cameras import Cameras
 from genmojo_core.clip.clip import Channel, Clip
 from genmojo_core.optimise.lift import object_points
+from genmojo_core.scene.background import never_shown
+from genmojo_core.scene.initialise import project
+from tests.optimise.small_runs import small_clip, small_run
 
 SIZE, FRAMES, FOCAL = 48, 8, 60.0
 
@@ -66,3 +70,29 @@ def test_a_frame_with_a_wrong_pose_brings_nothing_in() -> None:
     rows = points[:, 1] / points[:, 2] * FOCAL + SIZE / 2
     assert rows.min() > 11 and rows.max() < 37
     assert columns(points).min() < 8
+
+
+def test_what_objects_hide_in_every_frame_is_never_shown() -> None:
+    clip, _ = sliding_square()
+    y, x = np.mgrid[2:46:4, 2:46:4]
+    wall = np.stack([(x - SIZE / 2) * 5 / FOCAL, (y - SIZE / 2) * 5 / FOCAL, np.full(x.shape, 5.0)], axis=-1)
+    hidden = never_shown(wall.reshape(-1, 3), clip).reshape(x.shape)
+    always = (clip.masks.value > 0).all(axis=0)
+    assert 0 < hidden.sum() < hidden.size and (hidden == always[y, x]).all()
+
+
+def test_background_that_no_frame_shows_keeps_its_painted_colours() -> None:
+    clip = small_clip()
+    masks = clip.masks.value.copy()
+    masks[:, 10:30, 30:50] = 1  # an object that stands before the wall all the time
+    run = small_run(clip.with_channels(masks=replace(clip.masks, value=masks)), lift_steps=2, joint_steps=2)
+    for event in run:
+        if type(event).__name__ == "StageStarted" and event.stage == "lift":
+            before = {name: p.detach().clone() for name, p in run.scene.background.named_parameters()}
+    g = run.scene.background
+    column, row = project(g.means.double().numpy(), clip.cameras.value.view(0))[0].T
+    inner = torch.from_numpy((column > 31) & (column < 49) & (row > 11) & (row < 29))
+    assert inner.any() and g.invented[inner].all() and not g.invented.all()
+    for name, p in g.named_parameters():
+        assert torch.equal(p[g.invented], before[name][g.invented])
+    assert not torch.equal(g.dc[~g.invented], before["dc"][~g.invented])
