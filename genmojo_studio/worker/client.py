@@ -29,6 +29,7 @@ from genmojo_studio.worker.process import WorkerProcess
 from genmojo_studio.worker.protocol import ENDED, SILENCE_SECONDS, VERSION, Cadence, RunRequest
 
 _TICK_MS = 100
+_HELLO_SECONDS = 30.0  # a program that loads on a busy machine may be silent so long before its first word
 _ASLEEP_SECONDS = 2.0  # a gap between ticks after which it was the window that slept
 _DISCARD_SECONDS = 10.0  # then a worker that should stop is told harder, and after as long again killed
 
@@ -184,7 +185,7 @@ class WorkerClient(QObject):
         self._hello = False
         self._waiting: list[dict[str, Any]] = []
         self._events = 0
-        self._silence = SILENCE_SECONDS
+        self._silence = _HELLO_SECONDS
         self._heard = self._ticked = time.monotonic()
         self._host_state = "starting"
         self._readers: dict[str, BusReader] = {}
@@ -313,8 +314,11 @@ class WorkerClient(QObject):
             self._enter(self._host_state)
 
     def _on_event(self, message: dict[str, Any]) -> None:
-        if int(message["n"]) >= self._events:
-            self._events = int(message["n"]) + 1
+        number = int(message["n"])
+        if number > self._events:  # some did not come: the worker was short of memory
+            self._catch_up(number)
+        if number >= self._events:
+            self._events = number + 1
             self.event_received.emit(message["event"])
 
     def _on_phase(self, message: dict[str, Any]) -> None:

@@ -25,7 +25,7 @@ class DeathReport:
 
     Args:
         kind: class of the end. title: one sentence. advice: what to do, plain words. detail: trace or log, may be "".
-        step: last step known. checkpoint: the run can be resumed. final: False while it may come back (hang).
+        step: last step it told of. checkpoint: the run can be resumed. final: False while it may come back (hang).
         run_dir: its folder.
     """
 
@@ -96,10 +96,11 @@ def hung(run_dir: str | Path, beat: Mapping[str, Any], silent: float, phase: str
 def _report(kind: Kind, title: str, detail: str, folder: Path, beat: Mapping[str, Any]) -> DeathReport:
     """With the advice of its kind and what can be resumed."""
     resumable = (folder / "checkpoint.json").is_file()
+    step = max(int(beat.get("step", 0)), runs.steps_told(runs.read_events(folder)))  # a heartbeat is up to 1 s old
     advice = ADVICE[kind]
     if resumable and kind != "hang":
         advice += " The run can be resumed from its last checkpoint."
-    return DeathReport(kind, title, advice, detail, int(beat.get("step", 0)), resumable, True, str(folder))
+    return DeathReport(kind, title, advice, detail, step, resumable, True, str(folder))
 
 
 def _memory_was_short(beat: Mapping[str, Any]) -> bool:

@@ -34,6 +34,7 @@ from genmojo_studio.worker.session import Optimisation, Session
 STUCK_SECONDS = 60.0  # a step may take so long, or STUCK_STEPS times as long as usual
 STUCK_STEPS = 20.0
 PHASE_SECONDS = 900.0  # and any other phase so long
+_ANNOUNCE_SECONDS = 2.0  # a silence is announced before it begins
 _OUT_OF_MEMORY = ("can't allocate memory", "not enough memory", "out of memory", "OutOfMemoryError")
 
 
@@ -71,9 +72,9 @@ class Host:
         if message["type"] == "event":
             with self._lock:
                 message = {**message, "n": self._count}
-                self._count += 1
                 self._events.write(json.dumps(message["event"], allow_nan=True).encode() + b"\n")
                 self._events.flush()
+                self._count += 1  # only now: a window that says hello reads so many from the file
         if self.link is not None:
             self.link.tell(message)
 
@@ -89,6 +90,8 @@ class Host:
         self.phase, self.note = phase, note
         self.session.touched = time.monotonic()
         self.tell({"type": "phase", "phase": phase, "note": note, "silence": max(silence, self.compiling)})
+        if self.compiling and self.link is not None:  # a compiler may keep the interpreter to itself at once
+            self.link.leave(_ANNOUNCE_SECONDS)
 
     def hello(self) -> dict[str, Any]:
         """What a window hears first."""
@@ -214,6 +217,7 @@ class _Report:
 
 def _described(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> dict[str, Any]:
     """Class, sentence and details of an exception."""
+    traceback.clear_frames(trace)  # what they held is free again, which a report on memory may need
     text = "".join(traceback.format_exception(kind, error, trace, limit=40))
     if isinstance(error, GenmojoError):
         return {"kind": "input", "code": error.code, "title": error.sentence(), "detail": ""}

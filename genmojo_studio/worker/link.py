@@ -1,7 +1,8 @@
 """The worker's end of the line: a local socket on a thread of its own that also gives the heartbeat.
 
 Messages for windows are queued and sent by that thread, so that no window, however slow, holds up the optimisation; one
-that falls too far behind is disconnected and may come back.
+that falls too far behind is disconnected and may come back. The thread outlives a shortage of memory: windows then
+still hear what became of the run.
 """
 
 from __future__ import annotations
@@ -24,6 +25,8 @@ from genmojo_studio.worker.protocol import BEAT_SECONDS, VERSION, Decoder, encod
 _BEHIND = 64 << 20  # bytes a window may be behind
 _HELLO_SECONDS = 10.0
 _FLUSH_SECONDS = 2.0
+_RESERVE = 4 << 20  # bytes given back when memory is short, for the last messages
+_BREATH = 0.05  # seconds before the thread tries again then
 
 
 class _Window:
@@ -41,7 +44,8 @@ class Link:
     """Listens for windows; use as a context manager.
 
     Args:
-        token: windows have to give it. hello: makes the answer to a window's hello. beat: makes the heartbeat.
+        token: windows have to give it. hello: makes the answer to a window's hello; it must not `tell`.
+        beat: makes the heartbeat.
         heard: gets every command, on the link's thread.
     """
 
@@ -59,6 +63,9 @@ class Link:
         self._wake_out.setblocking(False)
         self._wake_in.setblocking(False)
         self._ending = threading.Event()
+        self._reserve = bytearray(_RESERVE)
+        self._next_beat = time.monotonic()
+        self._until: float | None = None
         self._thread = threading.Thread(target=self._serve, name="genmojo-link", daemon=True)
 
     def __enter__(self) -> Link:
@@ -88,6 +95,12 @@ class Link:
                     window.out += data
         self._wake()
 
+    def leave(self, seconds: float) -> None:
+        """Wait until everything queued has left, for some seconds at most."""
+        until = time.monotonic() + seconds
+        while any(window.out for window in list(self._windows)) and time.monotonic() < until:
+            time.sleep(0.002)
+
     def _listening(self) -> tuple[socket.socket, str]:
         """A local socket: a Unix one in a folder of its own, on Windows the loopback interface (with the token)."""
         if sys.platform == "win32" or not hasattr(socket, "AF_UNIX"):
@@ -110,24 +123,31 @@ class Link:
             return
 
     def _serve(self) -> None:
-        """The thread: accept, read, write, beat."""
-        next_beat = time.monotonic()
-        until = None
-        while True:
-            for key, mask in self._selector.select(max(0.0, min(next_beat - time.monotonic(), BEAT_SECONDS))):
-                self._serve_one(key, mask)
-            now = time.monotonic()
-            if now >= next_beat:
-                next_beat = now + BEAT_SECONDS
-                self.tell({"type": "beat", **self._beat()})
-            for window in list(self._windows):
-                self._send(window)
-                if not window.known and now - window.since > _HELLO_SECONDS:
-                    self._drop(window)
-            if self._ending.is_set():
-                until = until or now + _FLUSH_SECONDS
-                if now > until or not any(w.out for w in self._windows):
-                    return
+        """The thread. What cannot be done for want of memory is left out: a window finds events in their file."""
+        over = False
+        while not over:
+            try:
+                over = self._turn()
+            except MemoryError:
+                self._reserve = bytearray()
+                time.sleep(_BREATH)
+
+    def _turn(self) -> bool:
+        """Accept, read, write, beat; True when it is over."""
+        for key, mask in self._selector.select(max(0.0, min(self._next_beat - time.monotonic(), BEAT_SECONDS))):
+            self._serve_one(key, mask)
+        now = time.monotonic()
+        if now >= self._next_beat:
+            self._next_beat = now + BEAT_SECONDS
+            self.tell({"type": "beat", **self._beat()})
+        for window in list(self._windows):
+            self._send(window)
+            if not window.known and now - window.since > _HELLO_SECONDS:
+                self._drop(window)
+        if not self._ending.is_set():
+            return False
+        self._until = self._until or now + _FLUSH_SECONDS
+        return now > self._until or not any(w.out for w in self._windows)
 
     def _serve_one(self, key: selectors.SelectorKey, mask: int) -> None:
         if key.fileobj is self._listener:
@@ -171,9 +191,8 @@ class Link:
         if message.get("version") != VERSION:
             window.out += encode({"type": "refused", "version": VERSION})
             return
-        answer = encode({"type": "hello", "version": VERSION, **self._hello()})
-        with self._lock:
-            window.out += answer
+        with self._lock:  # what is told from now on comes after the hello, what was told before is in it
+            window.out += encode({"type": "hello", "version": VERSION, **self._hello()})
             window.known = True
 
     def _send(self, window: _Window) -> None:

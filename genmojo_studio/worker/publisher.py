@@ -50,8 +50,8 @@ class Publisher:
             left.unlink(missing_ok=True)
 
     def files(self) -> dict[str, str]:
-        """Path of the bus of every stream."""
-        return {stream: str(bus.path) for stream, bus in self._buses.items()}
+        """Path of the bus of every stream; from any thread."""
+        return {stream: str(bus.path) for stream, bus in list(self._buses.items())}
 
     def show(self, now: FrameArrays, t: int, where: tuple[str, int], setting: Setting) -> None:
         """Send one frame. `where`: stage and step."""

@@ -161,6 +161,19 @@ def read_events(run_dir: str | Path) -> list[dict[str, Any]]:
     return [event for event in events if isinstance(event, dict)]
 
 
+def steps_told(events: list[dict[str, Any]]) -> int:
+    """How many steps a run had done at the end of its events; a resumed run tells some steps again."""
+    done: dict[str, int] = {}  # per stage, in their order
+    for event in events:
+        if event.get("event") == "Step":
+            stages = list(done)
+            stage = str(event["stage"])
+            for later in stages[stages.index(stage) + 1 :] if stage in done else ():
+                del done[later]
+            done[stage] = int(event["step"])
+    return sum(done.values())
+
+
 def open_events(run_dir: str | Path) -> IO[bytes]:
     """The event log, to add to; a last line that a killed worker left unfinished is cut off."""
     stream = open(Path(run_dir) / EVENTS, "a+b")  # noqa: SIM115 - the caller closes it

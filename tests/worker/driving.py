@@ -17,6 +17,7 @@ from genmojo_studio.worker.client import WorkerClient
 from genmojo_studio.worker.protocol import RunRequest
 
 FAKE = [sys.executable, str(Path(__file__).with_name("fake_worker.py"))]
+PATIENCE = 120.0  # seconds until a test gives up on a slow, busy machine
 
 
 def application() -> QCoreApplication:
@@ -46,20 +47,21 @@ class Watched:
     def _answer(self, number: int, ok: bool, result: Any) -> None:
         self.answers[number] = (ok, result)
 
-    def until(self, condition: Callable[[], Any], seconds: float = 20.0) -> float:
-        """Let things happen until a condition holds; returns how long that took."""
-        begun = time.monotonic()
+    def until(self, condition: Callable[[], Any], seconds: float = PATIENCE) -> float:
+        """Let things happen until a condition holds; returns how long that took. A run that died stays dead."""
+        begun, reports = time.monotonic(), len(self.reports)
         while not condition():
             QCoreApplication.processEvents()
             time.sleep(0.005)
-            if time.monotonic() - begun > seconds:
+            over = any(report.final for report in self.reports[reports:])
+            if time.monotonic() - begun > seconds or (over and not condition()):
                 raise AssertionError(f"in {seconds} s only: {self.states}, {len(self.events)} events, {self.reports}")
         return time.monotonic() - begun
 
-    def until_state(self, state: str, seconds: float = 20.0) -> float:
+    def until_state(self, state: str, seconds: float = PATIENCE) -> float:
         return self.until(lambda: self.client.state == state, seconds)
 
-    def answer(self, number: int, seconds: float = 10.0) -> tuple[bool, Any]:
+    def answer(self, number: int, seconds: float = PATIENCE) -> tuple[bool, Any]:
         self.until(lambda: number in self.answers, seconds)
         return self.answers[number]
 

@@ -127,7 +127,6 @@ class FakeRun:
             os.kill(os.getpid(), signal.SIGSTOP)
         if self.fault == "compile":
             self.host.announce("compiling", "compiling", 60.0)
-            time.sleep(0.3)  # for the message to leave
             ctypes.PyDLL(None).sleep(7)  # holds the interpreter, as a compiler does
             self.host.announce("loaded", "", 0.0)
 

@@ -36,10 +36,9 @@ def test_pause_step_and_stage(tmp_path):
     with watched() as window:
         window.client.start(fake_request(tmp_path, steps=200, step_seconds=0.01))
         window.until(lambda: window.steps() >= 5)
-        begun = time.monotonic()
         assert window.answer(window.client.pause()) == (True, "paused")
-        assert time.monotonic() - begun < 1.0 and window.client.state == "paused"
-        stood = window.steps()
+        assert window.client.state == "paused"
+        stood, begun = window.steps(), time.monotonic()
         window.until(lambda: time.monotonic() - begun > 0.6)
         assert window.steps() == stood
         for n in (1, 3):
@@ -127,13 +126,10 @@ def test_a_window_that_was_closed_finds_its_run(tmp_path):
         first.until(lambda: first.steps() > 3)
         first.client.detach()
         with watched() as second:
-            time.sleep(0.3)
             (found,) = runs.live_runs()
             assert (found.run_dir, found.clip) == (str(run_dir.resolve()), "clip")
-            begun = time.monotonic()
             second.client.attach(found.run_dir)
             second.until(lambda: second.steps() > 50 and second.snapshots)
-            assert time.monotonic() - begun < 3.0
             steps = [e["step"] for e in second.events if e["event"] == "Step"]
             assert steps == list(range(1, len(steps) + 1)) and second.client.state == "running"
             with pytest.raises(GenmojoError):

@@ -38,14 +38,14 @@ def request(clip_path, run_dir, **changes):
 def test_cloud_pause_kill_resume_scene(clip_path, tmp_path):
     with watched(None) as window:
         window.client.start(request(clip_path, tmp_path))
-        window.until(lambda: window.snapshots, 30)
+        window.until(lambda: window.snapshots)
         first = window.snapshots[0]
         assert first.stage == "points" and first.T == 5 and {o.id for o in first.objects} >= {0, 1, 2}
-        window.until(lambda: window.steps() >= 15, 90)
+        window.until(lambda: window.steps() >= 15)
         assert any(s.stage == "first scene" for s in window.snapshots)
         window.answer(window.client.pause())
         window.answer(window.client.look(4))
-        window.answer(window.client.sweep(), 30)
+        window.answer(window.client.sweep())
         window.until(lambda: window.snapshots[-1].frames is not None and window.snapshots[-1].frame == 4)
         shown = window.snapshots[-1]
         again = shown.at(3).at(4)
@@ -55,14 +55,14 @@ def test_cloud_pause_kill_resume_scene(clip_path, tmp_path):
         window.answer(window.client.checkpoint())
         at = window.steps()
         window.client.kill()
-        window.until_state("failed", 5)
+        window.until_state("failed")
         assert window.reports[-1].kind == "killed" and window.reports[-1].checkpoint
         window.client.resume_run(tmp_path)
-        window.until_state("running", 60)  # what was told before the kill is told again, so count from here
+        window.until_state("running")  # what was told before the kill is told again, so count from here
         told = window.steps()
-        window.until(lambda: window.steps() >= told + 3, 90)
-        window.answer(window.client.stop(keep=True), 30)
-        window.until_state("done", 60)
+        window.until(lambda: window.steps() >= told + 3)
+        window.answer(window.client.stop(keep=True))
+        window.until_state("done")
     scene = scene_hdf5.read(tmp_path / "scene.h5")
     assert scene.metrics["steps"] >= at + 1 and len(scene) == 5
     assert [(o.id, o.name) for o in scene.objects] == [(o.id, o.name) for o in window.snapshots[-1].objects]
@@ -72,7 +72,7 @@ def test_a_clip_that_is_none_is_told_in_one_sentence(tmp_path):
     (tmp_path / "clip").mkdir()
     with watched(None) as window:
         window.client.start(RunRequest(str(tmp_path / "clip"), str(tmp_path / "run"), "draft"))
-        window.until(lambda: window.reports, 30)
+        window.until(lambda: window.reports)
         (report,) = window.reports
         assert report.kind == "input" and "clip" in report.title and "Traceback" not in report.detail
 
@@ -88,14 +88,14 @@ def test_killed_anywhere_it_can_go_on(clip_path, tmp_path):
                 window.client.resume_run(folder)
             else:
                 window.client.start(request(clip_path, folder))
-            window.until_state("running", 60)
+            window.until_state("running")
             before, wait = window.steps(), dice.randint(1, 60)
-            window.until(lambda before=before, wait=wait: window.steps() >= before + wait, 120)
+            window.until(lambda before=before, wait=wait: window.steps() >= before + wait)
             window.client.kill()
-            window.until_state("failed", 5)
+            window.until_state("failed")
             assert window.reports[-1].kind == "killed"
         window.client.resume_run(folder)
-        window.until(lambda: window.client.state == "running", 60)
-        window.answer(window.client.stop(), 60)
-        window.until_state("done", 60)
+        window.until(lambda: window.client.state == "running")
+        window.answer(window.client.stop())
+        window.until_state("done")
     assert scene_hdf5.validate(folder / "scene.h5") == []
