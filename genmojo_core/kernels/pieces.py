@@ -7,6 +7,7 @@ is optimised once, and loops are not turned into vectors, because the kernels' v
 
 from __future__ import annotations
 
+import gc
 from typing import Any
 
 from numba.core.codegen import JITCodeLibrary
@@ -84,6 +85,16 @@ class KernelCompiler(CompilerBase):
     """numba's own pipeline with another last step, and without the steps for what no kernel contains."""
 
     lowering: type = KernelLowering
+
+    def compile_extra(self, func: Any) -> Any:
+        """Compile without collecting garbage meanwhile: numba's many objects would be walked over again and again."""
+        collecting = gc.isenabled()
+        gc.disable()  # under numba's lock of the compiler, so no two threads change it at once
+        try:
+            return super().compile_extra(func)
+        finally:
+            if collecting:
+                gc.enable()
 
     def define_pipelines(self) -> list:
         """The passes."""

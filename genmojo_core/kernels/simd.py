@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from llvmlite import ir
@@ -24,6 +24,7 @@ from numba.extending import intrinsic, lower_builtin, register_model
 from genmojo_core.kernels.cache import inlined
 
 LANES = 8
+_NUMBERS = (types.Integer, types.Float)
 _F32 = ir.FloatType()
 _I32 = ir.IntType(32)
 _F8 = ir.VectorType(_F32, LANES)
@@ -122,9 +123,17 @@ def _register(operation: Callable, fits: Callable, result: types.Type, build: Ca
 
         key = operation
 
+        known: ClassVar[dict] = {}
+
         def generic(self, arguments: tuple, keywords: dict) -> Any:
-            """The signature, or None where the operands are no vectors."""
-            return signature(result, *arguments) if fits(*arguments) else None
+            """The signature; on two numbers numba's own answer, asked for once; None on anything else."""
+            if fits(*arguments):
+                return signature(result, *arguments)
+            if arguments in self.known or not all(isinstance(t, _NUMBERS) for t in arguments):
+                return self.known.get(arguments)
+            self.known[arguments] = None  # numba asks here again, and then its own rules
+            self.known[arguments] = self.context.resolve_function_type(operation, arguments, {})
+            return self.known[arguments]
 
     Operator.metadata = {"target": "cpu"}
 
