@@ -32,8 +32,11 @@ class FrameSource(Protocol):
     size: tuple[int, int]
     seconds: np.ndarray
 
-    def read(self, index: int, keep: Keep | None = None) -> np.ndarray:
-        """(H, W, 4) uint8 BGRA of frame `index`; frames decoded on the way are given to `keep(index, frame)`."""
+    def read(self, index: int, keep: Keep | None = None, out: np.ndarray | None = None) -> np.ndarray:
+        """(H, W, 4) uint8 BGRA of frame `index`, in `out` (same shape) where that saves memory.
+
+        Frames decoded on the way are given to `keep(index, frame)`.
+        """
 
     def close(self) -> None:
         """Let go of files."""
@@ -62,9 +65,9 @@ class FolderFrames:
         numbers = np.array(layouts.numbers(files), float)
         self.seconds = (numbers - numbers[0]) / fps
 
-    def read(self, index: int, keep: Keep | None = None) -> np.ndarray:
+    def read(self, index: int, keep: Keep | None = None, out: np.ndarray | None = None) -> np.ndarray:
         """(H, W, 4) uint8 BGRA; raises GenmojoError("schema") for a frame of another size than the first."""
-        picture = images.read_bgra(self._files[index])
+        picture = images.read_bgra(self._files[index], out)
         if (picture.shape[1], picture.shape[0]) != self.size:
             raise GenmojoError("schema", f"is {picture.shape[1]} x {picture.shape[0]} but the first frame is "
                                f"{self.size[0]} x {self.size[1]}", str(self._files[index]),
@@ -101,8 +104,8 @@ class VideoFrames:
         first = self.read(0)
         self.size = (first.shape[1], first.shape[0])
 
-    def read(self, index: int, keep: Keep | None = None) -> np.ndarray:
-        """(H, W, 4) uint8 BGRA of frame `index`.
+    def read(self, index: int, keep: Keep | None = None, out: np.ndarray | None = None) -> np.ndarray:
+        """(H, W, 4) uint8 BGRA of frame `index`; the decoder's memory is its own, `out` is not used.
 
         Raises GenmojoError("video") if that frame cannot be decoded.
         """

@@ -38,9 +38,12 @@ def read_rgb(path: Path) -> np.ndarray:
     return np.asarray(cv2.cvtColor(_read_bgr(path), cv2.COLOR_BGR2RGB))
 
 
-def read_bgra(path: Path) -> np.ndarray:
-    """(H, W, 4) uint8 B, G, R, 255 of an image file, as screens take it. Raises GenmojoError as `read_rgb`."""
-    return np.asarray(cv2.cvtColor(_read_bgr(path), cv2.COLOR_BGR2BGRA))
+def read_bgra(path: Path, out: np.ndarray | None = None) -> np.ndarray:
+    """(H, W, 4) uint8 B, G, R, 255 of an image file, as screens take it. Raises GenmojoError as `read_rgb`.
+
+    It is written into `out` if that has the file's size.
+    """
+    return np.asarray(cv2.cvtColor(_read_bgr(path), cv2.COLOR_BGR2BGRA, out))
 
 
 def _read_bgr(path: Path) -> np.ndarray:

@@ -49,6 +49,7 @@ class ObjectMotion:
         self._matcher = Matcher()
         self._grids: dict[int, Grid | None] = {}
         self._paths: dict[tuple[int, int], Path | None] = {}
+        self._asked: dict[tuple[int, int], set[bytes]] = {}  # places that a link was held against
 
     def grid(self, t: int) -> Grid | None:
         """Sampling places of the object in frame t, None where it is not seen."""
@@ -82,9 +83,15 @@ class ObjectMotion:
     def relink(self, s: int, t: int, source: np.ndarray, target: np.ndarray, slack: float) -> bool:
         """Match again if the link contradicts places known in both frames; True if a better one was found.
 
+        The same places are asked about once.
+
         Args:
             s, t: frames. source, target: (n, 2) the same points in either. slack: pixels they may be wrong.
         """
+        said = np.concatenate([source, target]).tobytes()
+        if said in self._asked.setdefault((s, t), set()):
+            return False
+        self._asked[s, t].add(said)
         carried = self.carry(s, t, source)
         grid = self.grid(s)
         if carried is None or grid is None:
@@ -97,6 +104,7 @@ class ObjectMotion:
         self._paths[s, t] = self._from(s, t, grid, start)
         again = self.carry(s, t, source)
         if again is not None and float(np.median(np.linalg.norm(again[0] - target, axis=1))) < before:
+            self._asked[s, t] = {said}
             return True
         self._paths[s, t] = old
         return False

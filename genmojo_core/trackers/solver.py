@@ -19,7 +19,7 @@ from genmojo_core.trackers.evidence import evidence_of
 from genmojo_core.trackers.object_motion import ObjectMotion
 from genmojo_core.trackers.segment_solver import SPANS, solve_points
 from genmojo_core.trackers.stabilise import Layer, flat_shade
-from genmojo_core.trackers.visibility import state_in, states_of
+from genmojo_core.trackers.visibility import states_in, states_of
 from genmojo_core.tracks import keys
 from genmojo_core.tracks.annotation import CONFIRMED, KEY, TRACKER, Annotation, Cells
 from genmojo_core.tracks.edits import Edit, join
@@ -130,7 +130,7 @@ class TrackSolver:
         if carried is None:
             return SolveAnswer(request, {})
         place, conf = carried[0], carried[1].astype(np.float32)
-        state = np.array([state_in(motion, t, place[0], self._clip.size)], np.uint8)
+        state = states_in(motion, t, place, self._clip.size)
         none, source = np.zeros(1, np.uint8), np.full(1, TRACKER, np.uint8)
         found = Cells((place / self.scale).astype(np.float32), state, none, source, conf, none)
         return SolveAnswer(request, {track: (np.array([t]), found)})
@@ -164,13 +164,12 @@ class TrackSolver:
         """The solved frames as cells in source pixels."""
         rows, first, end = what
         frames = np.arange(first, end)
+        state, conf = states_of(motion, xy[rows], [request.cells[row] for row in rows], self._clip.size)
+        none, source = np.zeros(len(frames), np.uint8), np.full(len(frames), TRACKER, np.uint8)
         found = {}
-        for row in rows:
-            state, conf = states_of(motion, xy[row], request.cells[row], self._clip.size)
-            source = np.full(len(frames), TRACKER, np.uint8)
-            none = np.zeros(len(frames), np.uint8)
+        for n, row in enumerate(rows):
             place = (xy[row, frames] / self.scale).astype(np.float32)
-            found[request.tracks[row]] = (frames, Cells(place, state[frames], none, source, conf[frames], none))
+            found[request.tracks[row]] = (frames, Cells(place, state[n, frames], none, source, conf[n, frames], none))
         return found
 
     def _motion(self, object_id: int) -> ObjectMotion:

@@ -1,6 +1,8 @@
-"""Whether a tracked point is seen: by masks, by the picture's border, and by what its own pixels look like."""
+"""Whether tracked points are seen: by masks, by the picture's border, and by what their own pixels look like."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -14,35 +16,35 @@ _AROUND = np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]], np.float32)  # he
 
 
 def states_of(
-    motion: ObjectMotion, xy: np.ndarray, cells: Cells, size: tuple[int, int]
-) -> tuple[np.ndarray, np.ndarray]:  # (T, 2) held px -> (T,) uint8, (T,) float32
-    """States and confidences of one point; what a person said about a state is returned as it is.
+    motion: ObjectMotion, xy: np.ndarray, cells: Sequence[Cells], size: tuple[int, int]
+) -> tuple[np.ndarray, np.ndarray]:  # (n, T, 2) held px -> (n, T) uint8, (n, T) float32
+    """States and confidences of n points; what a person said about a state is returned as it is.
 
     A point on its object's visible mask counts as seen: that links lose it says little (measured on clips with truth,
     they would be wrong four times as often as right). The confidence is the share of links that agree with the place.
     """
-    state = np.array([state_in(motion, t, xy[t], size) for t in range(motion.frames)], np.uint8)
-    said = ((cells.flags & (KEY | PAINTED | CONFIRMED)) > 0) & (cells.state != NONE)
-    state[said] = cells.state[said]
-    sure = (cells.flags & KEY) > 0
-    return state, np.where(sure, 1.0, agreement(motion, xy)).astype(np.float32)
+    state = np.stack([states_in(motion, t, xy[:, t], size) for t in range(motion.frames)], axis=1)
+    flags, stands = np.stack([c.flags for c in cells]), np.stack([c.state for c in cells])
+    said = ((flags & (KEY | PAINTED | CONFIRMED)) > 0) & (stands != NONE)
+    conf = np.where((flags & KEY) > 0, 1.0, agreement(motion, xy)).astype(np.float32)
+    return np.where(said, stands, state), conf
 
 
-def state_in(motion: ObjectMotion, t: int, xy: np.ndarray, size: tuple[int, int]) -> int:
-    """State in frame t of a point at held px (2,), by the masks and the picture's border alone."""
-    if ((xy < 0) | (xy > np.array(size))).any():
-        return OUT_OF_VIEW
-    on_mask = sample(motion.layer.mask[t].astype(np.float32), xy + _AROUND).max() > 0.5
-    return VISIBLE if on_mask else OCCLUDED
+def states_in(motion: ObjectMotion, t: int, xy: np.ndarray, size: tuple[int, int]) -> np.ndarray:  # (n,) uint8
+    """States in frame t of points at held px (n, 2), by the masks and the picture's border alone."""
+    outside = ((xy < 0) | (xy > np.array(size))).any(axis=1)
+    around = np.asarray(xy, np.float32)[:, None] + _AROUND
+    on_mask = sample(motion.layer.mask[t].astype(np.float32), around).max(axis=1) > 0.5
+    return np.where(outside, OUT_OF_VIEW, np.where(on_mask, VISIBLE, OCCLUDED)).astype(np.uint8)
 
 
-def agreement(motion: ObjectMotion, xy: np.ndarray) -> np.ndarray:  # (T, 2) -> (T,) 0..1
+def agreement(motion: ObjectMotion, xy: np.ndarray) -> np.ndarray:  # (n, T, 2) -> (n, T) 0..1
     """How well the best of the links from frames nearby agrees with every place."""
-    support = np.zeros(motion.frames)
+    support = np.zeros(xy.shape[:2])
     for t in range(motion.frames):
         for s in [t + sign * span for span in _SPANS for sign in (-1, 1)]:
-            carried = motion.carry(s, t, xy[s : s + 1]) if 0 <= s < motion.frames else None
+            carried = motion.carry(s, t, xy[:, s]) if 0 <= s < motion.frames else None
             if carried is not None:
-                gap = float(np.linalg.norm(carried[0][0] - xy[t]))
-                support[t] = max(support[t], float(carried[1][0]) * float(np.exp(-((gap / 1.5) ** 2))))
+                gap = np.linalg.norm(carried[0] - xy[:, t], axis=1)
+                support[:, t] = np.maximum(support[:, t], carried[1] * np.exp(-((gap / 1.5) ** 2)))
     return support

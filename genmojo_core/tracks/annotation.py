@@ -159,9 +159,9 @@ class Annotation:
 
     def at(self, t: int) -> FrameView:
         """Every track that has a state in frame t, in order of rows. Costs the same for any number of frames."""
-        rows = np.flatnonzero(self._cells.state[t])
         c = self._cells
-        return FrameView(self._ids[rows], rows, c.xy[t, rows], c.state[t, rows], c.flags[t, rows], c.conf[t, rows])
+        rows = np.flatnonzero(c.state[t])
+        return FrameView(self._ids.take(rows), rows, *(a[t].take(rows, 0) for a in (c.xy, c.state, c.flags, c.conf)))
 
     def track(self, track: int) -> Cells:
         """All T frames of a track: views, not to be written to."""

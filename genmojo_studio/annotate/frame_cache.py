@@ -15,10 +15,12 @@ from PySide6.QtCore import QObject, Signal, SignalInstance
 
 from genmojo_core.clip.frames import FolderFrames, FrameSource, MaskFrames, open_source
 from genmojo_core.errors import GenmojoError
+from genmojo_studio.annotate.frame_buffers import FrameBuffers
 
 DEFAULT_BYTES = 640 << 20
 _BEHIND = 4  # of every frames held, one is kept behind the target
 _THREADS = 2
+_BEYOND = 2 * _THREADS + 2  # frames that are decoded, on show or on their way out besides those held
 
 
 class FrameCache(QObject):
@@ -35,6 +37,7 @@ class FrameCache(QObject):
         self.has_masks = bool(MaskFrames(path))
         self.capacity = max(8, min(self.count, most_bytes // (self.size[0] * self.size[1] * 4)))
         self._path = path
+        self._buffers = FrameBuffers((self.size[1], self.size[0], 4), self.capacity + _BEYOND)
         self._frames: dict[int, np.ndarray] = {}
         self._masks: dict[int, np.ndarray | None] = {}
         self._bad: dict[int, str] = {}
@@ -106,24 +109,28 @@ class FrameCache(QObject):
             thread.join(5.0)
         self._frames.clear()
         self._masks.clear()
+        self._buffers.clear()
 
     def _work(self, source: FrameSource) -> None:
         """A thread: decode what is wanted most until the cache closes."""
         masks = MaskFrames(self._path)
         while True:
             with self._changed:
-                self._changed.wait_for(lambda: not self._open or self._next() is not None)
                 frame = self._next()
+                while self._open and frame is None:
+                    self._changed.wait()
+                    frame = self._next()
                 if not self._open or frame is None:
                     break
                 self._busy.add(frame)
             try:
-                picture = source.read(frame, self._keep)
+                picture = source.read(frame, self._keep, self._buffers.take())
                 labels = masks.read(frame) if masks else None
             except GenmojoError as error:
                 self._fault(frame, str(error))
                 continue
             self._store(frame, picture, labels)
+            del picture
         source.close()
 
     def _keep(self, frame: int, picture: np.ndarray) -> None:

@@ -7,6 +7,7 @@ thousands of tracks only `DETAILED` get glyphs and trails, the rest are dots.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
 
@@ -223,18 +224,29 @@ def _trails(painter: QPainter, picture: Picture, mapping: Mapping, *, fine: bool
     for mark, xy, state, now in picture.trails:
         x, y = _mapped(xy, mapping)
         colour = QColor(*point_colour(mark.place, mark.point))
-        for first, end, alpha, width in ((0, now + 1, 200, 1.8), (now, len(x), 110, 1.2)):
-            if end - first < 2:
-                continue
-            seen = state[first:end] == VISIBLE
-            known = state[first:end] != NONE
-            both, linked = seen[:-1] & seen[1:], known[:-1] & known[1:]
+        styles = _styles(state)
+        for first, end, alpha, width in ((0, now, 200, 1.8), (now, len(x) - 1, 110, 1.2)):
             colour.setAlpha(alpha)
-            for choice, style in ((both, Qt.PenStyle.SolidLine), (linked & ~both, Qt.PenStyle.DashLine)):
-                if choice.any():
-                    connect = np.append(choice, False)
-                    painter.setPen(QPen(colour, width if fine else 1, style))
-                    painter.drawPath(pg.functions.arrayToQPath(x[first:end], y[first:end], connect, finiteCheck=False))
+            for begin, stop, style in _runs(styles, first, end):
+                painter.setPen(QPen(colour, width if fine else 1, style))
+                painter.drawPolyline(pg.functions.arrayToQPolygonF(x[begin : stop + 1], y[begin : stop + 1]))
+
+
+def _styles(state: np.ndarray) -> list[Qt.PenStyle]:
+    """How the stretch from each of n frames to the next is drawn, n - 1 of them."""
+    seen, known = state == VISIBLE, state != NONE
+    shown = (known[:-1] & known[1:]).astype(int) + (seen[:-1] & seen[1:])
+    return [(Qt.PenStyle.NoPen, Qt.PenStyle.DashLine, Qt.PenStyle.SolidLine)[n] for n in shown.tolist()]
+
+
+def _runs(styles: list[Qt.PenStyle], first: int, end: int) -> Iterator[tuple[int, int, Qt.PenStyle]]:
+    """Stretches first..end - 1 put together where they look alike and are drawn: first and last frame, style."""
+    begin = first
+    for at in range(first + 1, end + 1):
+        if at == end or styles[at] != styles[begin]:
+            if styles[begin] != Qt.PenStyle.NoPen:
+                yield begin, at, styles[begin]
+            begin = at
 
 
 def _dots(painter: QPainter, xy: np.ndarray, mapping: Mapping) -> None:

@@ -80,12 +80,14 @@ class Presenter:
         """Places in `view` of the tracks with glyphs: all if they are few, else the active object's and the first."""
         if len(view.ids) <= MANY:
             return np.arange(len(view.ids))
-        own = {self._session.track or 0}
+        annotation, track = self._session.annotation, self._session.track
+        own = [] if track is None else [annotation.row(track)]
         if len(view.ids) < 500:
-            own |= {i.id for i in self._session.annotation.tracks_of(self._session.active[0])}
-        first = [n for n, track in enumerate(view.ids[:DETAILED].tolist()) if track not in own]
-        mine = np.flatnonzero(np.isin(view.ids, list(own)))[:DETAILED]
-        return np.concatenate([np.array(first[: DETAILED - len(mine)], int), mine])
+            own += [annotation.row(i.id) for i in annotation.tracks_of(self._session.active[0]) if i.id != track]
+        near = np.searchsorted(view.rows, own[:DETAILED]).tolist()  # rows rise, so nothing is searched through
+        mine = [n for n, row in zip(near, own, strict=False) if n < len(view.rows) and view.rows[n] == row]
+        others = [n for n in range(min(2 * DETAILED, len(view.rows))) if n not in mine]
+        return np.array(others[: DETAILED - len(mine)] + mine, int)
 
     def _mark(self, view: FrameView, n: int, frame: int) -> Mark:
         track = int(view.ids[n])

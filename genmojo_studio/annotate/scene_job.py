@@ -16,23 +16,28 @@ _MARGIN = 1.15  # reading, writing and the first estimates come on top of the bu
 
 
 class SceneJob(QObject):
-    """One optimisation with a budget of seconds, which makes its end foreseeable; `tracks` is an npz to follow."""
+    """One optimisation with a budget of seconds, which makes its end foreseeable.
+
+    Args:
+        clip, output: what is optimised, where the scene goes. seconds: budget.
+        given: options of `genmojo optimize` with a file each that a person made: {"--tracks": npz, "--masks": npz}.
+    """
 
     progressed = Signal(float)  # 0..1 of the forecast
     finished = Signal(str)  # path of the scene
     failed = Signal(str)  # a sentence
 
     def __init__(
-        self, clip: Path, output: Path, seconds: float, tracks: Path | None = None, parent: QObject | None = None
+        self, clip: Path, output: Path, seconds: float, given: dict[str, Path], parent: QObject | None = None
     ) -> None:
         super().__init__(parent)
         self._output, self._seconds = output, seconds
         self._process = QProcess(self)
         self._process.setProgram(sys.executable)
-        follow = [] if tracks is None else ["--tracks", str(tracks)]
+        files = [word for option, path in given.items() for word in (option, str(path))]
         self._process.setArguments(["-m", "genmojo_core.cli.main", "optimize", str(clip), "-o", str(output), "--preset",
                                     "draft", "--budget", f"{seconds:.0f}s", "--run-dir", f"{output}.run",
-                                    *follow])  # fmt: skip
+                                    *files])  # fmt: skip
         self._process.finished.connect(self._ended)
         self._process.errorOccurred.connect(self._error)
         self._clock = QElapsedTimer()
@@ -40,6 +45,10 @@ class SceneJob(QObject):
         self._tick.setInterval(500)
         self._tick.timeout.connect(self._tell)
         self._cancelled = False
+
+    def arguments(self) -> list[str]:
+        """The command line that runs."""
+        return self._process.arguments()
 
     def start(self) -> None:
         """Begin."""

@@ -29,6 +29,7 @@ from PySide6.QtWidgets import (
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.npz import write_tracks
 from genmojo_core.trackers import seeding
+from genmojo_studio.annotate import hand_masks
 from genmojo_studio.annotate.scene_job import SceneJob, forecast, said_by_people
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.work import Work
@@ -44,7 +45,7 @@ class SeedDialog(QDialog):
     def __init__(self, session: Session, work: Work, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session, self._work, self._settings = session, work, Settings()
-        self._job: SceneJob | None = None
+        self.job: SceneJob | None = None
         self.setWindowTitle(tr("Seed tracks"))
         self.setMinimumWidth(500)
         column = QVBoxLayout(self)
@@ -94,8 +95,8 @@ class SeedDialog(QDialog):
     def reject(self) -> None:
         """Close; what runs is cancelled."""
         self._work.tracker.cancel()
-        if self._job is not None:
-            self._job.cancel()
+        if self.job is not None:
+            self.job.cancel()
         super().reject()
 
     # ---- what is asked
@@ -195,18 +196,21 @@ class SeedDialog(QDialog):
         return tracker.seed_by(made, self.objects())
 
     def _optimise(self) -> bool:
-        output = self._session.project.path.with_suffix(".scene.h5")
-        seconds = 60.0 * float(self.minutes.currentData())
-        said = said_by_people(self._session.annotation)
-        tracks = output.with_suffix(".tracks.npz")
+        """Optimise a scene from what people said: points placed and accepted, masks cut out by hand."""
+        session = self._session
+        output = session.project.path.with_suffix(".scene.h5")
+        said, given = said_by_people(session.annotation), {}
         if said is not None:
-            write_tracks(said, tracks)
-        clip = Path(self._session.project.info.path)
-        self._job = SceneJob(clip, output, seconds, tracks if said is not None else None, self)
-        self._job.progressed.connect(self._progressed)
-        self._job.finished.connect(self._scene_ready)
-        self._job.failed.connect(self._failed)
-        self._job.start()
+            given["--tracks"] = output.with_suffix(".tracks.npz")
+            write_tracks(said, given["--tracks"])
+        if session.hand_masks and session.clip is not None:
+            given["--masks"] = hand_masks.publish(session.clip, session.project.path)
+        seconds = 60.0 * float(self.minutes.currentData())
+        self.job = SceneJob(Path(session.project.info.path), output, seconds, given, self)
+        self.job.progressed.connect(self._progressed)
+        self.job.finished.connect(self._scene_ready)
+        self.job.failed.connect(self._failed)
+        self.job.start()
         self.note.setText(tr("Optimising. You can close this to cancel."))
         return True
 

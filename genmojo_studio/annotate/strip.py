@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QPointF, QRect, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QImage, QMouseEvent, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
@@ -67,15 +67,17 @@ class Strip(QWidget):
             self.seek.emit(self.frames()[n])
 
     def _tile(self, painter: QPainter, n: int, frame: int, xy: np.ndarray | None, *, key: bool) -> None:
-        side = self._side()
-        place = QRectF(self._left() + n * side + 2, 3, side - 4, side - 4)
+        side = int(self._side())  # whole pixels: patches are copied, not scaled
+        place = QRect(int(self._left()) + n * side + 2, 3, side - 4, side - 4)
         picture = self._session.cache.get(frame)
         if picture is not None and xy is not None:
             ratio = self.devicePixelRatioF()
             pixels = max(round(place.width() * ratio), 1)
             part = patch(picture, (float(xy[0]), float(xy[1])), (pixels, pixels), ZOOM * ratio)
-            painter.drawImage(place, QImage(part.data, pixels, pixels, 4 * pixels, QImage.Format.Format_RGB32))
-            middle = place.center()
+            image = QImage(part.data, pixels, pixels, 4 * pixels, QImage.Format.Format_RGB32)
+            image.setDevicePixelRatio(ratio)
+            painter.drawImage(place.topLeft(), image)
+            middle = QRectF(place).center()
             painter.setPen(QPen(QColor(255, 255, 255, 190), 1))
             for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
                 painter.drawLine(middle + QPointF(4 * dx, 4 * dy), middle + QPointF(11 * dx, 11 * dy))
@@ -85,7 +87,7 @@ class Strip(QWidget):
         painter.setPen(QPen(rim.color(), 2 if now else 1))
         painter.drawRect(place)
         label = f"{frame} ◆" if key else str(frame)
-        box = QRectF(place.x() + 1, place.bottom() - 15, painter.fontMetrics().horizontalAdvance(label) + 6, 14)
+        box = QRect(place.x() + 1, place.bottom() - 14, painter.fontMetrics().horizontalAdvance(label) + 6, 14)
         painter.fillRect(box, QColor(10, 11, 13, 180))
         painter.setPen(QColor(235, 236, 240))
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, label)

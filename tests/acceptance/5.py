@@ -54,7 +54,8 @@ def widgets(bench: Bench, name: str, seeds: str) -> list[Check]:
     more = ["--scene", str(scene(bench, name))] if seeds == "scene" else []
     found = _driven(bench, name, f"{name}-{seeds}", more)
     checks = _goals(found["keys"], found["error"], found["oa"], found["solve_seconds"])
-    return [*checks, Check("p90 px", found["p90"]), Check("seconds in all", found["seconds"])]
+    return [*checks, Check("solved after s", found["solve_wait"]), Check("p90 px", found["p90"]),
+            Check("seconds in all", found["seconds"])]  # fmt: skip
 
 
 def walk(bench: Bench) -> list[Check]:

@@ -5,6 +5,7 @@ import pytest
 
 from genmojo_studio.annotate.candidates import figures
 from genmojo_studio.annotate.colours import object_colour, point_colour
+from genmojo_studio.annotate.frame_buffers import FrameBuffers
 from genmojo_studio.annotate.mapping import Mapping, fitted
 from genmojo_studio.annotate.patches import difference, patch
 from genmojo_studio.annotate.snap import snapped
@@ -85,6 +86,20 @@ def test_a_frame_that_cannot_be_read_is_told_and_the_others_come(qapp, qtbot, cl
     qtbot.waitUntil(lambda: bool(told) and made.get(5) is not None, timeout=60_000)
     assert told[0][0] == 4 and "00004" in told[0][1]
     made.close()
+
+
+def test_memory_of_a_frame_is_used_again_only_when_nobody_holds_a_part_of_it():
+    buffers = FrameBuffers((8, 8, 4), most=2)
+    first = buffers.take()
+    corner = first[:2, :2]
+    where = first.ctypes.data
+    del first
+    second = buffers.take()
+    assert second.ctypes.data != where
+    del corner
+    assert buffers.take().ctypes.data == where
+    third, fourth = buffers.take(), buffers.take()
+    assert len({second.ctypes.data, third.ctypes.data, fourth.ctypes.data}) == 3, "beyond the most, memory is fresh"
 
 
 # ---- pictures

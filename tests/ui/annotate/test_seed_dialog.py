@@ -11,6 +11,7 @@ import pytest
 from annotating import choose_all, place_points
 from shiboken6 import isValid
 
+from genmojo_core.clip import mask_file
 from genmojo_core.store.npz import read_tracks
 from genmojo_core.tracks.annotation import KEY
 from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE
@@ -84,6 +85,25 @@ def test_a_wrong_checkout_is_said_in_the_dialog(workspace, tmp_path):
     dialog.start.click()
     assert dialog.isVisible() and "predictor.py" in dialog.note.text()
     dialog.reject()
+
+
+def test_a_scene_is_optimised_with_the_masks_cut_by_hand(workspace, qtbot):
+    """The run is started and given up: what it was given stays on the disk."""
+    choose_all(workspace)
+    place_points(workspace, each=1)
+    frame = workspace.session.annotation.size
+    workspace.work.add_box(0.3 * frame[0], 0.3 * frame[1], 0.6 * frame[0], 0.7 * frame[1])
+    qtbot.waitUntil(lambda: bool(workspace.session.hand_masks), timeout=120_000)
+    (own,) = workspace.session.hand_masks
+    dialog = opened(workspace)
+    dialog.choose("scene")
+    dialog.start.click()
+    arguments = dialog.job.arguments()
+    dialog.reject()
+    given = mask_file.with_masks(workspace.session.clip, arguments[arguments.index("--masks") + 1])
+    assert own in given.object_ids
+    assert (given.object_mask(given.object_ids.tolist().index(own)) == workspace.session.hand_masks[own]).all()
+    assert "--tracks" in arguments
 
 
 @pytest.mark.slow
