@@ -11,7 +11,7 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.effects.light import light_change
 from genmojo_core.effects.objects import ObjectFacts, describe
 from genmojo_core.effects.occlusion import Cover, occlusion_graph
-from genmojo_core.effects.rigid import rigid_fit
+from genmojo_core.effects.rigid import turning
 from genmojo_core.effects.sample import SHORT_SIDE, sample
 from genmojo_core.effects.shape import Bending, bending
 from genmojo_core.estimate.views import carry
@@ -63,21 +63,21 @@ def measure(clip: Clip) -> Evidence:
     facts = describe(small)
     labels = small.masks.value if small.masks is not None else np.zeros(small.frames.shape[:3], np.uint8)
     contact = np.any([one.touches for one in facts], axis=0) if facts else np.zeros(len(small), bool)
-    light = light_change(small)
+    light, covers = light_change(small), occlusion_graph(small)
     strong = light.objects[light.objects >= OBJECT_LIGHT]
     return Evidence(
         contact=float(contact.mean()),
-        covers=occlusion_graph(small),
+        covers=covers,
         background=float((labels == 0).mean()),
         camera=camera_shift(small) * SHORT_SIDE / min(small.size),
-        bending=tuple(bending(small, k, facts[k]) for k in range(small.objects)),
+        bending=tuple(bending(small, k, facts[k], covers) for k in range(small.objects)),
         light=max([light.background, *strong.tolist()]),
         objects=int(sum(one.area.any() for one in facts)),
         depth=_share_inside(labels, None if small.depth is None else small.depth.valid),
         flow=_share_inside(labels[:-1], None if small.flow is None else small.flow.valid[:-1]),
         corners=trackable(small, labels),
         hidden=max((longest_gap(one.visibility) for one in facts), default=0),
-        sights=tuple(rigid_fit(small, k).sight for k in range(small.objects)),
+        sights=tuple(turning(small, k) for k in range(small.objects)),
         facts=facts,
     )
 

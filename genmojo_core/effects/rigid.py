@@ -1,13 +1,13 @@
-"""The rigid motion that explains an object's flow best, and what it leaves unexplained; numpy only.
+"""The rigid motion that explains an object's flow best; numpy only.
 
 Points of the object are lifted by depth, carried by the flow over a few frames and matched by a rigid motion (robust
-Gauss-Newton on pixels). What stays is non-rigid motion; its spectrum tells how many motions there are besides.
+Gauss-Newton on pixels). It tells which sides of the object are seen (`sides`), not whether it bends: a flow that
+follows a turning, shaded surface is off by as much as bending moves it.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,36 +19,19 @@ _WINDOW = 7  # frames that points are followed
 _SHORTER = (7, 4, 2)  # tried in turn where too few points last
 _MOST_POINTS, _FEWEST_POINTS = 300, 16
 _ITERATIONS = 8
-_OUTER = 90.0  # percentile of the points' errors that counts: a limb is a tenth of an animal
 
 
-@dataclass(frozen=True)
-class RigidFit:
-    """How a rigid body explains an object's flow.
+def turning(clip: Clip, k: int) -> np.ndarray:  # (T, 3, 3)
+    """Rotations from object k (as in frame 0) to the camera, chained over windows of a few frames.
 
-    Args:
-        residual: pixels that its outer points are off, in the worst tenth of the windows (NaN: not followed).
-        modes: motions besides the rigid one, each larger than `least` pixels.
-        sight: (T, 3, 3) rotation from the object (as in frame 0) to the camera, chained over the windows.
-    """
-
-    residual: float
-    modes: int
-    sight: np.ndarray
-
-
-def rigid_fit(clip: Clip, k: int, least: float = 0.5) -> RigidFit:
-    """Fit object k; `least` pixels is the amplitude from which a mode counts.
-
-    Needs flow, depth and cameras; without one of them nothing is followed.
+    Needs flow, depth and cameras; without one of them, and where too little is followed, nothing is said to turn.
     """
     frames = len(clip)
     sight = np.tile(np.eye(3), (frames, 1, 1))
     window = min(_WINDOW, frames)
     if clip.flow is None or clip.depth is None or clip.cameras is None or window < 2:
-        return RigidFit(math.nan, 0, sight)
+        return sight
     masks = clip.object_mask(k)
-    residuals, modes = [], [0]
     for start in window_starts(frames, window):
         span = range(start, min(start + window, frames))
         sight[start:] = sight[start]
@@ -59,17 +42,14 @@ def rigid_fit(clip: Clip, k: int, least: float = 0.5) -> RigidFit:
         if len(tracks) < _FEWEST_POINTS or len(span) < 2:
             continue
         span = span[: tracks.shape[1]]
-        turns, left = _fit_window(clip, tracks, span)
+        turns = _fit_window(clip, tracks, span)
         for t, turn in zip(span, turns, strict=True):
             sight[t:] = turn @ sight[start]
-        size = np.linalg.norm(left, axis=2)  # (P, F)
-        residuals.append(float(np.percentile(size, _OUTER, axis=0).max()))
-        modes.append(_modes(left, least))
-    return RigidFit(float(np.percentile(residuals, 90)) if residuals else math.nan, max(modes), sight)
+    return sight
 
 
-def _fit_window(clip: Clip, tracks: np.ndarray, span: range) -> tuple[list[np.ndarray], np.ndarray]:
-    """Rotations from the first frame of a window to each, and (P, F, 3) left over: pixels, and depth as if pixels.
+def _fit_window(clip: Clip, tracks: np.ndarray, span: range) -> list[np.ndarray]:
+    """Rotations from the first frame of a window to each.
 
     Depth counts where it was measured: a body that stretches could pass for a flat one that turns without it.
     """
@@ -90,27 +70,25 @@ def _lookup(image: np.ndarray, places: np.ndarray) -> np.ndarray:  # (H, W), (P,
     return np.asarray(image[inside], np.float64)
 
 
-def _follow_poses(
-    points: np.ndarray, xy: np.ndarray, depth: np.ndarray | None, lens: np.ndarray
-) -> tuple[list[np.ndarray], np.ndarray]:
-    """Rotation of every frame of a window and what it leaves over; each frame starts from the one before."""
+def _follow_poses(points: np.ndarray, xy: np.ndarray, depth: np.ndarray | None, lens: np.ndarray) -> list[np.ndarray]:
+    """Rotation of every frame of a window; each frame starts from the one before."""
     turn, shift = np.eye(3), np.zeros(3)
-    turns, left = [], np.zeros((*xy.shape[:2], 3))
+    turns = []
     for f in range(xy.shape[1]):
         if f:
             guess = np.median(xy[:, f] - xy[:, f - 1], axis=0) / lens[:2] * np.median(points[:, 2])
             shift = shift + np.array([*guess, 0.0])
         wanted = np.column_stack([xy[:, f], np.zeros(len(xy)) if depth is None else depth[:, f]])
         unit = 0.0 if depth is None else float(lens[0] / np.median(points[:, 2]))
-        turn, shift, left[:, f] = _fit(points, wanted, unit, lens, (turn, shift))
+        turn, shift = _fit(points, wanted, unit, lens, (turn, shift))
         turns.append(turn)
-    return turns, left
+    return turns
 
 
 def _fit(
     points: np.ndarray, wanted: np.ndarray, unit: float, lens: np.ndarray, start: tuple[np.ndarray, np.ndarray]
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Rotation, translation and (P, 3) errors of the rigid motion that brings points to pixels and depth (robust).
+) -> tuple[np.ndarray, np.ndarray]:
+    """Rotation and translation of the rigid motion that brings points to pixels and depth (robust).
 
     unit: pixels that a unit of depth counts as; 0 where depth is not known.
     """
@@ -118,7 +96,6 @@ def _fit(
     centre = points.mean(axis=0)
     shift = shift + turn @ centre  # of the centre, so that turn and shift do not mix
     local = points - centre
-    left = np.zeros(wanted.shape)
     for _ in range(_ITERATIONS):
         arm = local @ turn.T
         place = arm + shift
@@ -139,13 +116,4 @@ def _fit(
         if angle > 0:
             turn = axis_angle_matrix(step[:3] / angle, math.degrees(min(angle, 0.3))) @ turn
         shift = shift + step[3:]
-    return turn, shift - turn @ centre, left
-
-
-def _modes(left: np.ndarray, least: float) -> int:  # (P, F, 2)
-    """Number of singular values of the unexplained motion whose amplitude exceeds `least` pixels."""
-    rows = left.reshape(len(left), -1)
-    size = np.linalg.norm(left, axis=2).max(axis=1)
-    rows = rows[size <= 6 * np.median(size) + 1e-9]
-    values = np.linalg.eigvalsh(rows.T @ rows)
-    return int((np.sqrt(np.maximum(values, 0) / max(len(rows), 1)) >= least).sum())
+    return turn, shift - turn @ centre

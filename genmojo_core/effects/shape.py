@@ -1,15 +1,16 @@
-"""Does an object bend? Two measures that a rigid body, however it turns, keeps small; numpy and OpenCV only.
+"""Does an object bend? Measures that a rigid body, however it turns, keeps small; numpy and OpenCV only.
 
 Flow: points of a rigid body followed over a few frames span three modes (Tomasi and Kanade 1992: the centred track
 matrix of a rigid body under an affine camera has rank 3); the amplitude of the fourth mode is motion that is not rigid
 (Bregler et al. 2000). Outline: a mask seen whole in two frames a few frames apart, its affine change taken out, keeps
 its outline unless the object bends or turns fast. Flow misses objects whose texture says nothing, outlines those that
-are always touched, so either one is enough.
+are always touched, and both those that only stretch or lean (`upright`), so any one is enough.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -18,6 +19,8 @@ import numpy as np
 from genmojo_core.clip.clip import Clip
 from genmojo_core.effects.follow import follow
 from genmojo_core.effects.objects import ObjectFacts
+from genmojo_core.effects.occlusion import Cover
+from genmojo_core.effects.upright import affine_change
 
 # Limits of what rigid objects show, each between the rigid and the bending objects of the shared Blender clips.
 RIGID_MODE = 0.004  # of the object's size: fourth mode (rigid at most 0.0022 there, an animal or a player 0.005-0.016)
@@ -41,22 +44,29 @@ class Bending:
     Args:
         mode: amplitude of the fourth mode as a share of the object's size (NaN: could not be followed).
         outline: mean shift of the outline as a share of the object's size (NaN: never seen whole for long enough).
-        score: the larger of both as a multiple of what a rigid object shows; 0 when neither could be measured.
+        affine: how much it stretches or leans, as a multiple of what a rigid object shows (0: not measured).
+        score: the largest of the three as a multiple of what a rigid object shows; 0 when none could be measured.
     """
 
     mode: float
     outline: float
+    affine: float
     score: float
 
 
-def bending(clip: Clip, k: int, facts: ObjectFacts) -> Bending:
-    """Measure object k; at the edges: NaN measures and score 0 for one frame, no flow or an object hardly seen."""
+def bending(clip: Clip, k: int, facts: ObjectFacts, covers: Sequence[Cover] = ()) -> Bending:
+    """Measure object k; at the edges: NaN measures and score 0 for one frame, no flow or an object hardly seen.
+
+    Args:
+        facts: of the object. covers: who covers whom (`occlusion`).
+    """
     size = math.sqrt(max(int(facts.area.max(initial=0)), 1))
     mode, outline = _fourth_mode(clip, k), _outline_change(clip, k, facts)
     from_flow = min(mode / (RIGID_MODE * size), mode / RIGID_MODE_PX)
     from_outline = max(0.0, outline - OUTLINE_NOISE_PX) / (RIGID_OUTLINE * size)
-    score = max((x for x in (from_flow, from_outline) if math.isfinite(x)), default=0.0)
-    return Bending(mode / size, outline / size, score)
+    affine = affine_change(clip, k, facts, covers)
+    score = max(x for x in (from_flow, from_outline, affine) if math.isfinite(x))
+    return Bending(mode / size, outline / size, affine, score)
 
 
 def fourth_mode(tracks: np.ndarray) -> float:  # (P, F, 2) pixels
