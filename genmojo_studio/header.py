@@ -13,6 +13,7 @@ class Header(QToolBar):
 
     workspace_wanted = Signal(str)
     palette_wanted = Signal()
+    panels_wanted = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(tr("Workspaces"), parent)
@@ -49,10 +50,16 @@ class Header(QToolBar):
         find = QPushButton(tr("Find a command…  Ctrl+K"))
         find.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         find.clicked.connect(self.palette_wanted)
+        self._panels = QPushButton(tr("Panels"))
+        self._panels.setCheckable(True)
+        self._panels.setToolTip(tr("Hides all panels, so that the pictures fill the window, or shows them (Ctrl+B)"))
+        self._panels.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self._panels.clicked.connect(self.panels_wanted)
         self.addWidget(self._name)
         self.addWidget(gap)
         self.addWidget(self._said)
         self._busy_action = self.addWidget(self._busy)
+        self._panels_action = self.addWidget(self._panels)
         self.addWidget(find)
         self.say("")
 
@@ -63,6 +70,11 @@ class Header(QToolBar):
     def show_name(self, name: str) -> None:
         """Says what is open."""
         self._name.setText(name)
+
+    def show_panels(self, shown: bool | None) -> None:
+        """Marks whether the panels are on show; None where there are none."""
+        self._panels_action.setVisible(shown is not None)
+        self._panels.setChecked(bool(shown))
 
     def say(self, text: str, busy: bool = False) -> None:
         """Says what the app is doing, with a bar that moves while it is busy."""

@@ -15,6 +15,8 @@ ACTIONS = (
     Action("window.watch", "Watch", "Window", ("Ctrl+2",), help="Optimise, look at and compare scenes."),
     Action("window.theme", "Light theme", "Window", ("Ctrl+Shift+L",), checkable=True, separator=True,
            help="Switches between the dark and the light theme."),
+    Action("window.panels", "Pictures only", "Window", ("Ctrl+B",), checkable=True,
+           help="Hides all panels, so that the pictures fill the window; again brings them back."),
     Action("window.full_screen", "Full screen", "Window", ("F11",), checkable=True, help="Fills the screen."),
     Action("window.reset", "Reset the panels", "Window", help="Puts every panel where it was delivered."),
     Action("help.palette", "Find a command…", "Help", ("Ctrl+K", "Ctrl+Shift+P"), help="Type what you want to do."),

@@ -17,6 +17,7 @@ from genmojo_studio.background import Tasks
 from genmojo_studio.header import Header
 from genmojo_studio.menus import Menus
 from genmojo_studio.palette import Palette
+from genmojo_studio.panels import Panels
 from genmojo_studio.settings import Settings, data_folder
 from genmojo_studio.shortcuts import KeyEditor, KeySheet
 from genmojo_studio.state import AppState
@@ -30,6 +31,8 @@ DEMO_CLIP = "crossing-shapes"
 
 class Workspace(Protocol):
     """What the window asks of a workspace, besides being a QMainWindow."""
+
+    panels: Panels
 
     def open_clip(self, path: Path) -> None:
         """Shows a clip (or a project); the shared state already holds a clip that was read."""
@@ -93,6 +96,7 @@ class MainWindow(QMainWindow):
             self.welcome.show_recent(self.settings.recent(), [Path(run.run_dir) for run in runs.live_runs()])
         self.stack.setCurrentWidget(cast(QWidget, self.workspaces[name]) if name else self.welcome)
         self.header.show_workspace(name)
+        self.header.show_panels(None if not name else not self._panels_hidden())
         self.menus.set_workspace(name)
         path = self.state.clip_path
         if name and path is not None and self._shown_clips.get(name) != path:
@@ -160,6 +164,7 @@ class MainWindow(QMainWindow):
         self.welcome.path_wanted.connect(lambda path: self.open_path(Path(path)))
         self.header.workspace_wanted.connect(self.show_workspace)
         self.header.palette_wanted.connect(self._show_palette)
+        self.header.panels_wanted.connect(lambda: self.table.trigger("window.panels"))
         bind = self.table.bind
         bind("file.open_clip", self._ask_folder)
         bind("file.open", self._ask_file)
@@ -171,6 +176,7 @@ class MainWindow(QMainWindow):
         bind("window.watch", lambda: self.show_workspace("watch"))
         bind("window.theme", self._switch_theme, checked=lambda: self.state.theme == "light")
         bind("window.full_screen", self._switch_full_screen, checked=self.isFullScreen)
+        bind("window.panels", self._switch_panels, lambda: bool(self.workspace), self._panels_hidden)
         bind("window.reset", self._reset_layout, lambda: bool(self.workspace))
         bind("help.palette", self._show_palette)
         bind("help.keys", lambda: KeySheet(self.table, self.workspace, self).exec())
@@ -219,9 +225,18 @@ class MainWindow(QMainWindow):
     def _switch_full_screen(self) -> None:
         self.showNormal() if self.isFullScreen() else self.showFullScreen()
 
+    def _switch_panels(self) -> None:
+        self.workspaces[self.workspace].panels.toggle()
+        self.header.show_panels(not self._panels_hidden())
+
+    def _panels_hidden(self) -> bool:
+        return bool(self.workspace) and self.workspaces[self.workspace].panels.hidden
+
     def _reset_layout(self) -> None:
         self.settings.forget_layouts()
+        self.workspaces[self.workspace].panels.reset()
         self.workspaces[self.workspace].restore_layout()
+        self.header.show_panels(True)
 
     def _show_crashes(self) -> None:
         reports = notify.crash_reports(data_folder() / "crashes")

@@ -40,6 +40,7 @@ from genmojo_studio.annotate.strip import Strip
 from genmojo_studio.annotate.tour import Tour
 from genmojo_studio.annotate.trackability import measure
 from genmojo_studio.annotate.work import Work
+from genmojo_studio.panels import Panels
 from genmojo_studio.settings import Settings
 from genmojo_studio.state import AppState
 from genmojo_studio.translate import tr
@@ -90,6 +91,7 @@ class AnnotateWorkspace(QMainWindow):
             dock.setObjectName(f"annotate-{name}")
             self.addDockWidget(area, dock)
             self.docks[name] = dock
+        self.panels = Panels(self, self.docks, "annotate")
         self.setCorner(Qt.Corner.BottomRightCorner, Qt.DockWidgetArea.RightDockWidgetArea)
         self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.BottomDockWidgetArea)
         self.setCentralWidget(_hint(tr("Open a clip to annotate it (Ctrl+O).")))
@@ -208,18 +210,18 @@ class AnnotateWorkspace(QMainWindow):
 
     def save_layout(self) -> None:
         """Remember where the panels are in this step."""
-        self.settings.put_layout(f"annotate-{STEPS[self.step].name}", self.saveState())
+        self.settings.put_layout(f"annotate-{STEPS[self.step].name}", self.panels.layout())
 
     def restore_layout(self) -> None:
         """Put the panels where they were in this step, or where they belong."""
         stored = self.settings.layout(f"annotate-{STEPS[self.step].name}")
-        if stored is not None and self.restoreState(stored):
-            return
-        for name, _title, area in _DOCKS:
-            self.docks[name].setFloating(False)
-            self.addDockWidget(area, self.docks[name])
-            self.docks[name].show()
-        QTimer.singleShot(0, self._size_docks)  # sizes count only after the docks have been laid out
+        if stored is None or not self.restoreState(stored):
+            for name, _title, area in _DOCKS:
+                self.docks[name].setFloating(False)
+                self.addDockWidget(area, self.docks[name])
+                self.docks[name].show()
+            QTimer.singleShot(0, self._size_docks)  # sizes count only after the docks have been laid out
+        self.panels.arranged()
 
     def _size_docks(self) -> None:
         wide, high = max(self.width(), 1000), max(self.height(), 600)

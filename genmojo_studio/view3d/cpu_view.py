@@ -16,16 +16,16 @@ from PySide6.QtWidgets import QWidget
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.errors import GenmojoError
+from genmojo_studio.background import give_way
 from genmojo_studio.translate import tr
 from genmojo_studio.view3d.colouring import colour, straight_rgba, value_bounds
 from genmojo_studio.view3d.cpu_painter import CpuPainter
 from genmojo_studio.view3d.frames import Feeder, FrameReport, FrameRequest
-from genmojo_studio.view3d.look import SCALAR_MODES, Mode
+from genmojo_studio.view3d.look import BLACK, SCALAR_MODES, Mode
 from genmojo_studio.view3d.quality import FULL, Detail
 
 PATIENCE_MS = 1000  # the first picture takes longer where the kernels have to be compiled
 LARGEST_PIXELS = 1 << 26
-_EMPTY = QColor(16, 17, 19)
 
 
 class CpuView(QWidget):
@@ -39,6 +39,7 @@ class CpuView(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.backdrop = BLACK  # where there is no scene
         self._image: QImage | None = None
         self._pixels: np.ndarray | None = None  # keeps the image's memory
         self._newest: FrameRequest | None = None
@@ -58,6 +59,12 @@ class CpuView(QWidget):
                 self._patience.start()
             self._drawer.ask(request, self._device_size())
 
+    def clear(self) -> None:
+        """There is no scene any more."""
+        self._newest = self._asked = self._image = None
+        self._patience.stop()
+        self.update()
+
     def image(self, request: FrameRequest, view: View) -> np.ndarray:  # (H, W, 4) uint8
         """A picture of any size off screen, at full detail."""
         return self._drawer.image(request, view)
@@ -72,7 +79,7 @@ class CpuView(QWidget):
             self.show_frame(self._newest)  # it came while the window was minimised
         painter = QPainter(self)
         if self._image is None:
-            painter.fillRect(self.rect(), _EMPTY)
+            painter.fillRect(self.rect(), QColor.fromRgbF(*self.backdrop))
         else:
             painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
             painter.drawImage(QRectF(self.rect()), self._image)
@@ -90,6 +97,8 @@ class CpuView(QWidget):
 
     def _show(self, pixels: np.ndarray, report: FrameReport) -> None:
         """A picture is ready."""
+        if self._newest is None:  # cleared meanwhile
+            return
         if self._image is None:
             self._patience.stop()
             self.waiting.emit("")
@@ -161,6 +170,7 @@ class Drawer:
 
     def _work(self) -> None:
         """Until stopped: draw what waits."""
+        give_way()
         while True:
             with self._wake:
                 while self._waiting is None and not self._stopped:

@@ -11,6 +11,7 @@ import numpy as np
 from genmojo_studio.view3d.snapshot import SceneSnapshot
 
 RGB = tuple[float, float, float]
+BLACK: RGB = (0.0, 0.0, 0.0)
 
 
 class Mode(StrEnum):
@@ -68,7 +69,7 @@ class Look:
 
     mode: Mode = Mode.RGB
     splat_scale: float = 1.0
-    backdrop: RGB | None = (0.0, 0.0, 0.0)
+    backdrop: RGB | None = BLACK
     show_background: bool = True
     solo: frozenset[int] = frozenset()
     objects: Mapping[int, ObjectLook] = field(default_factory=dict)

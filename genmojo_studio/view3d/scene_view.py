@@ -21,7 +21,7 @@ from genmojo_studio.view3d import navigation
 from genmojo_studio.view3d.cpu_view import CpuView
 from genmojo_studio.view3d.frames import FrameReport, FrameRequest
 from genmojo_studio.view3d.gl_probe import GlKind, probe
-from genmojo_studio.view3d.look import Look, Mode
+from genmojo_studio.view3d.look import BLACK, Look, Mode
 from genmojo_studio.view3d.orbit import PRESETS, Orbit, Reference, between, reference_of
 from genmojo_studio.view3d.overlay import Overlay, Paint
 from genmojo_studio.view3d.picking import Pick, pick
@@ -85,6 +85,7 @@ class SceneView(QWidget):
             return
         self._snapshot = snapshot
         if snapshot is None:
+            self.surface.clear()
             self.overlay.report = None
             self.overlay.update()
         self._redraw()
@@ -112,6 +113,8 @@ class SceneView(QWidget):
         """Show the scene another way."""
         if look != self._look:
             self._look = look
+            self.surface.backdrop = look.backdrop or BLACK
+            self.surface.update()  # also without a scene
             self._redraw()
 
     def set_input(self, frame: Callable[[int], np.ndarray | None] | None) -> None:
@@ -285,6 +288,7 @@ class SceneView(QWidget):
     def _use(self, surface: SplatView | CpuView) -> None:
         """Put a surface under the overlay."""
         self.surface = surface
+        surface.backdrop = self._look.backdrop or BLACK
         surface.setGeometry(self.rect())
         surface.drawn.connect(self._drawn)
         if isinstance(surface, CpuView):

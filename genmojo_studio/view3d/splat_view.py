@@ -20,7 +20,7 @@ from PySide6.QtWidgets import QWidget
 from genmojo_core.clip.cameras import View
 from genmojo_core.errors import GenmojoError
 from genmojo_studio.view3d.frames import Feeder, FrameReport, FrameRequest
-from genmojo_studio.view3d.look import SCALAR_MODES
+from genmojo_studio.view3d.look import BLACK, SCALAR_MODES
 from genmojo_studio.view3d.quality import FULL, MOVING_MS, SMOOTH_MS, Detail, Quality
 from genmojo_studio.view3d.renderer import SplatRenderer
 
@@ -38,6 +38,7 @@ class SplatView(QOpenGLWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.renderer: SplatRenderer | None = None
+        self.backdrop = BLACK  # where there is no scene
         self._ctx: Any = None
         self._is_useless = False
         self._request: FrameRequest | None = None
@@ -55,6 +56,11 @@ class SplatView(QOpenGLWidget):
         self._request = request
         if not self.window().isMinimized():
             self.update()
+
+    def clear(self) -> None:
+        """There is no scene any more."""
+        self._request = None
+        self.update()
 
     def image(self, request: FrameRequest, view: View) -> np.ndarray:  # (H, W, 4) uint8
         """A picture of any size off screen, at full detail. Raises GenmojoError where OpenGL failed."""
@@ -96,7 +102,7 @@ class SplatView(QOpenGLWidget):
         target = self._ctx.detect_framebuffer(self.defaultFramebufferObject())
         request = self._request
         if request is None:
-            target.clear(0.06, 0.065, 0.07, 1.0)
+            target.clear(*self.backdrop, 1.0)
             return
         try:
             report = self._draw(self.renderer, request, target)

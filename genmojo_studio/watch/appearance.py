@@ -5,13 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QColor
 
 from genmojo_studio.undo import UndoStack
 from genmojo_studio.view3d.look import RGB, Look, Mode, ObjectLook
 
 
 class Appearance(QObject):
-    """Holds the `Look`; every change goes through here and can be undone. Emits `changed`."""
+    """Holds the `Look`; every change goes through here and can be undone. Emits `changed`.
+
+    The backdrop belongs to the window, not to the scene: it is no step to undo.
+    """
 
     changed = Signal()
 
@@ -29,7 +33,12 @@ class Appearance(QObject):
 
     def restore(self, look: Look) -> None:
         """Takes a look without a new entry to undo."""
-        self.look = look
+        self.look = replace(look, backdrop=self.look.backdrop)
+        self.changed.emit()
+
+    def set_backdrop(self, colour: QColor) -> None:
+        """Another colour behind everything."""
+        self.look = replace(self.look, backdrop=(colour.redF(), colour.greenF(), colour.blueF()))
         self.changed.emit()
 
     def set_mode(self, mode: str, text: str) -> None:

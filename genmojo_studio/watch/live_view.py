@@ -11,9 +11,11 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from genmojo_core.clip.cameras import View
 from genmojo_studio.state import AppState
+from genmojo_studio.theme import colours
 from genmojo_studio.translate import tr
 from genmojo_studio.undo import UndoStack
 from genmojo_studio.view3d.frames import FrameRequest
+from genmojo_studio.view3d.look import BLACK
 from genmojo_studio.view3d.orbit import Orbit
 from genmojo_studio.view3d.scene_view import SceneView
 from genmojo_studio.view3d.snapshot import SceneSnapshot
@@ -36,9 +38,7 @@ class LiveView(SceneView):
         self._pending: SceneSnapshot | None = None
         self._sets: tuple[TrackSet, ...] = ()
         self._selected: tuple[str, int] | None = None
-        self._nothing = dim(
-            f'<span style="color: #b9bfc8">{tr("No scene yet. Start a run (F5), or open a scene file.")}</span>'
-        )
+        self._nothing = dim()
         self._nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
         layout = QVBoxLayout(self)
         layout.addWidget(self._nothing)
@@ -77,7 +77,12 @@ class LiveView(SceneView):
         self.set_time(float(self._state.frame), playing=self._state.playing)
 
     def _take_look(self) -> None:
-        self.set_look(self._appearance.look)
+        look = self._appearance.look
+        self.set_look(look)
+        light = sum(look.backdrop or BLACK) > 1.5  # the text must be read on whatever was chosen
+        ink = colours("light" if light else "dark").dim
+        text = tr("No scene yet. Start a run (F5), or open a scene file.")
+        self._nothing.setText(f'<span style="color: {ink}">{text}</span>')
 
     def _remember(self, orbit: Orbit) -> None:
         if orbit != self._kept:

@@ -47,6 +47,7 @@ class RunControl(QObject):
         self._rule = StopRule()
         self._wanted: list[tuple[Path, Callable[[Path], None]]] = []  # scenes asked for while the run goes on
         self._view_shown = True
+        self._unasked: set[int] = set()  # commands that nobody gave: what becomes of them is nobody's concern
         self.client.state_changed.connect(self._state)
         self.client.event_received.connect(self._event)
         self.client.preview_ready.connect(self._preview)
@@ -97,13 +98,13 @@ class RunControl(QObject):
     def look(self, frame: int) -> None:
         """Previews of this frame from now on."""
         if self.live:
-            self.client.look(frame)
+            self._unasked.add(self.client.look(frame))
 
     def show_view(self, shown: bool) -> None:
         """While nobody sees the view, the worker makes no previews."""
         self._view_shown = shown
         if self.live:
-            self.client.set_view("live" if shown else "off")
+            self._unasked.add(self.client.set_view("live" if shown else "off"))
 
     def scene_so_far(self, then: Callable[[Path], None]) -> None:
         """Writes the scene as it stands into the run's folder and calls `then` with its path; the run goes on."""
@@ -188,9 +189,10 @@ class RunControl(QObject):
         self.phase = note
         self.state_changed.emit()
 
-    def _acknowledged(self, _number: int, ok: bool, outcome: Any) -> None:
-        if not ok:
+    def _acknowledged(self, number: int, ok: bool, outcome: Any) -> None:
+        if not ok and number not in self._unasked:
             self.failed.emit(GenmojoError("argument", str(outcome).rstrip("."), "run"))
+        self._unasked.discard(number)
 
     def _died(self, report: DeathReport) -> None:
         self.died.emit(report)

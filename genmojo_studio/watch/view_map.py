@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QFocusEvent, QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QColor, QFocusEvent, QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap
 from PySide6.QtWidgets import QWidget
 
 from genmojo_studio.state import AppState
@@ -37,6 +37,7 @@ class ViewMap(QWidget):
         self._orbit = Orbit()
         self._supervised = np.zeros((0, 3), np.float32)
         self._away = np.zeros((0, 0))
+        self._picture: tuple[tuple[str, QSize, float], QPixmap] | None = None
         self.setMinimumHeight(120)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(tr("Map of directions"))
@@ -54,10 +55,19 @@ class ViewMap(QWidget):
     def show_view(self, orbit: Orbit, supervised: np.ndarray) -> None:
         """Where the view is; `supervised` are rows (elevation, azimuth, frame) as in a snapshot."""
         if not self._away.size or not np.array_equal(supervised, self._supervised):
-            self._supervised = np.asarray(supervised)
-            self._away = distances(self._supervised)
+            self._extend(np.asarray(supervised))
         self._orbit = orbit
         self.update()
+
+    def _extend(self, supervised: np.ndarray) -> None:
+        """While a run goes on, more views come after those that are known: only they are looked at."""
+        known = len(self._supervised)
+        if known and self._away.size and np.array_equal(supervised[:known], self._supervised):
+            self._away = np.minimum(self._away, distances(supervised[known:]))
+        else:
+            self._away = distances(supervised)
+        self._supervised = supervised
+        self._picture = None
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         """The field, supervised views, the view's own place."""
@@ -65,8 +75,8 @@ class ViewMap(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         table, field = colours(self._state.theme), self._field()
         if self._away.size and self.isEnabled():
-            painter.drawImage(field, self._image())
-            self._paint_points(painter, field, table.text)
+            painter.drawPixmap(QPointF(0, 0), self._drawn(field))
+            self._paint_here(painter, field)
         else:
             painter.fillRect(field, QColor(table.field))
         painter.setPen(QColor(table.line))
@@ -129,11 +139,25 @@ class ViewMap(QWidget):
         height, width = pixels.shape[:2]
         return QImage(pixels.data, width, height, 3 * width, QImage.Format.Format_RGB888).copy()
 
-    def _paint_points(self, painter: QPainter, field: QRectF, ink: str) -> None:
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(QColor(ink))
-        for elevation, azimuth in np.unique(np.round(self._supervised[:, :2]), axis=0):
-            painter.drawEllipse(_place(field, float(elevation), float(azimuth)), 2, 2)
+    def _drawn(self, field: QRectF) -> QPixmap:
+        """Field and supervised views, kept until one of them, the theme or the size is another."""
+        key = (self._state.theme, self.size(), self.devicePixelRatioF())
+        if self._picture is None or self._picture[0] != key:
+            drawn = QPixmap(self.size() * key[2])
+            drawn.setDevicePixelRatio(key[2])
+            drawn.fill(Qt.GlobalColor.transparent)
+            painter = QPainter(drawn)
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            painter.drawImage(field, self._image())
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(QColor(colours(self._state.theme).text))
+            for elevation, azimuth in np.unique(np.round(self._supervised[:, :2]), axis=0):
+                painter.drawEllipse(_place(field, float(elevation), float(azimuth)), 1.5, 1.5)
+            painter.end()
+            self._picture = (key, drawn)
+        return self._picture[1]
+
+    def _paint_here(self, painter: QPainter, field: QRectF) -> None:
         here = _place(field, self._orbit.elevation, self._orbit.azimuth)
         painter.setBrush(Qt.BrushStyle.NoBrush)
         for colour, width in ((QColor("black"), 4), (QColor("white"), 2)):  # seen on every colour

@@ -7,9 +7,11 @@ from typing import Any
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtGui import QColor, QGuiApplication
 from PySide6.QtWidgets import (
     QCheckBox,
+    QColorDialog,
+    QComboBox,
     QFormLayout,
     QGridLayout,
     QLabel,
@@ -22,6 +24,7 @@ from PySide6.QtWidgets import (
 from genmojo_core.errors import GenmojoError
 from genmojo_studio import notify
 from genmojo_studio.actions import ActionTable
+from genmojo_studio.settings import Settings
 from genmojo_studio.state import AppState
 from genmojo_studio.translate import tr
 from genmojo_studio.view3d.orbit import Orbit, Reference, parse
@@ -31,11 +34,18 @@ from genmojo_studio.watch.appearance import Appearance
 from genmojo_studio.watch.controls import number, row, set_role
 from genmojo_studio.watch.view_map import ViewMap
 
+BACKDROP = "view/backdrop"  # in the settings
+
 
 class ViewPanel(QWidget):
-    """Typed numbers move the view, the view moves the numbers. `orbit_wanted(Orbit)`."""
+    """Typed numbers move the view, the view moves the numbers.
+
+    Signals: `orbit_wanted(Orbit)`; `backdrop_changed()`, the choice is in the settings under BACKDROP ("" as the theme,
+    else "#rrggbb").
+    """
 
     orbit_wanted = Signal(object)
+    backdrop_changed = Signal()
 
     def __init__(
         self, state: AppState, actions: ActionTable, appearance: Appearance, parent: QWidget | None = None
@@ -66,6 +76,18 @@ class ViewPanel(QWidget):
         self.canonical = QCheckBox(tr("Without motion"))
         form.addRow(tr("Splat size"), self.splat_scale)
         form.addRow(self.background, self.canonical)
+        self.backdrop = QComboBox()
+        for text, colour in (
+            (tr("As the theme"), ""),
+            (tr("Black"), "#000000"),
+            (tr("White"), "#ffffff"),
+            (tr("Another colour…"), None),
+        ):
+            self.backdrop.addItem(text, colour)
+        self.backdrop.setToolTip(tr("The colour behind the scene"))
+        self.backdrop.activated.connect(self._choose_backdrop)
+        form.addRow(tr("Behind it"), self.backdrop)
+        self._show_backdrop()
         copy, paste = QPushButton(tr("Copy")), QPushButton(tr("Paste"))
         copy.setToolTip(tr("Copies these numbers as text"))
         copy.clicked.connect(lambda: QGuiApplication.clipboard().setText(self._orbit.text()))
@@ -117,6 +139,19 @@ class ViewPanel(QWidget):
 
     def _scale(self, value: int) -> None:
         self._appearance.set(replace(self._appearance.look, splat_scale=value / 100), tr("Splat size"), "splat")
+
+    def _choose_backdrop(self) -> None:
+        colour = self.backdrop.currentData()
+        if colour is None:
+            chosen = QColorDialog.getColor(QColor(Settings().text(BACKDROP)), self, tr("The colour behind the scene"))
+            colour = chosen.name() if chosen.isValid() else Settings().text(BACKDROP)
+        Settings().put(BACKDROP, colour)
+        self._show_backdrop()
+        self.backdrop_changed.emit()
+
+    def _show_backdrop(self) -> None:
+        place = self.backdrop.findData(Settings().text(BACKDROP))
+        self.backdrop.setCurrentIndex(place if place >= 0 else self.backdrop.count() - 1)
 
     def _show_look(self) -> None:
         look = self._appearance.look

@@ -5,12 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from PySide6.QtCore import QByteArray, Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent, QHideEvent, QShowEvent
+from PySide6.QtGui import QCloseEvent, QColor, QHideEvent, QShowEvent
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabWidget, QVBoxLayout, QWidget
 
-from genmojo_studio import notify
+from genmojo_studio import notify, theme
 from genmojo_studio.actions import ActionTable
 from genmojo_studio.background import Tasks
+from genmojo_studio.panels import Panels
 from genmojo_studio.settings import Settings
 from genmojo_studio.state import AppState
 from genmojo_studio.translate import tr
@@ -36,7 +37,7 @@ from genmojo_studio.watch.take_away import TakeAway
 from genmojo_studio.watch.time_bar import TimeBar
 from genmojo_studio.watch.track_sets import TrackSet
 from genmojo_studio.watch.tracks_panel import TracksPanel
-from genmojo_studio.watch.view_panel import ViewPanel
+from genmojo_studio.watch.view_panel import BACKDROP, ViewPanel
 
 _LAYOUT_VERSION = 1
 
@@ -70,6 +71,7 @@ class WatchWorkspace(QMainWindow):
         self.take_away = TakeAway(state, self.session, self.view, self.control, self)
         self._arrange()
         self._connect()
+        self._dress()
         commands.bind(self)
 
     def open_clip(self, path: Path) -> None:
@@ -101,16 +103,17 @@ class WatchWorkspace(QMainWindow):
 
     def save_layout(self) -> None:
         """Remembers where the panels are."""
-        Settings().put_layout("watch", self.saveState(_LAYOUT_VERSION))
+        Settings().put_layout("watch", self.panels.layout())
 
     def restore_layout(self) -> None:
         """Puts the panels where they were, or where they were delivered."""
         stored = Settings().layout("watch")
         if stored is not None:
             self.restoreState(stored, _LAYOUT_VERSION)
-            return
-        self.restoreState(self._delivered, _LAYOUT_VERSION)
-        QTimer.singleShot(0, self._deliver_sizes)  # sizes hold only once the window has its own
+        else:
+            self.restoreState(self._delivered, _LAYOUT_VERSION)
+            QTimer.singleShot(0, self._deliver_sizes)  # sizes hold only once the window has its own
+        self.panels.arranged()
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Asks what becomes of a run that goes on."""
@@ -171,6 +174,7 @@ class WatchWorkspace(QMainWindow):
             self.tabifyDockWidget(self.docks["curves"], self.docks[name])
         self.docks["curves"].raise_()
         self._delivered: QByteArray = self.saveState(_LAYOUT_VERSION)
+        self.panels = Panels(self, self.docks, "watch", _LAYOUT_VERSION)
 
     def _deliver_sizes(self) -> None:
         """A third of the height for the panels below, a fifth of the width for each side."""
@@ -205,9 +209,11 @@ class WatchWorkspace(QMainWindow):
         self.compare.request_wanted.connect(self._show_comparison)
         self.compare.active_changed.connect(self.center.set_beside)
         self.view_panel.orbit_wanted.connect(self.view.set_orbit)
+        self.view_panel.backdrop_changed.connect(self._dress)
         self.center.comparison.measured.connect(self.objects_panel.show_psnr)
         self.tracks.changed.connect(self._show_tracks)
         self.appearance.changed.connect(self._look_changed)
+        self.state.subscribe(self._dress, "theme")
         self.state.subscribe(self._frame_changed, "frame")
         self.state.subscribe(self._clip_changed, "clip")
         self.state.subscribe(self._masks_changed, "masks_path", "clip")
@@ -240,6 +246,10 @@ class WatchWorkspace(QMainWindow):
         clip = self.state.clip
         if clip is not None and len(clip.seconds) > 1:
             self.player.fps = (len(clip.seconds) - 1) / max(float(clip.seconds[-1] - clip.seconds[0]), 1e-6)
+
+    def _dress(self) -> None:
+        """What is behind the scene: the canvas of the theme, or the colour that a person chose."""
+        self.appearance.set_backdrop(QColor(Settings().text(BACKDROP) or theme.colours(self.state.theme).canvas))
 
     def _masks_changed(self) -> None:
         """Corrected masks call for another plan: it is shown again."""

@@ -175,6 +175,8 @@ def main(argv: list[str] | None = None, job: Job | None = None) -> int:
             run = runs.LiveRun(str(folder), host.request.clip, os.getpid(), link.address, token, time.time())
             with runs.RunLock(run), _Report(folder, host):
                 signal.signal(signal.SIGTERM, _Stop(host))
+                if hasattr(signal, "SIGHUP"):  # the window's terminal is closed
+                    signal.signal(signal.SIGHUP, signal.SIG_IGN)
                 (job or Optimise()).run(host)
                 host.publisher.close()
                 host.session.answer_rest()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from typing import Any
 
 from PySide6.QtCore import QObject, QProcess, QProcessEnvironment, QTimer, Signal, SignalInstance
 
@@ -17,7 +18,7 @@ _PROGRAM = ["-m", "genmojo_studio.export.program"]
 class ExportJob(QObject):
     """One export.
 
-    Signals, one of the last three exactly once: progress(0..1); finished(dict with "path" and "files"),
+    Signals, one of the last three exactly once, after the process's end: progress(0..1); finished(dict with "path" and "files"),
     failed(sentence), cancelled().
     """
 
@@ -32,6 +33,7 @@ class ExportJob(QObject):
         self._over = True
         self._cancelling = False
         self._rest = b""
+        self._outcome: tuple[Any, ...] | None = None  # signal and values
         self._process = QProcess(self)
         self._process.readyReadStandardOutput.connect(self._read)
         self._process.finished.connect(self._on_finished)
@@ -51,6 +53,7 @@ class ExportJob(QObject):
         if self.running:
             return
         self.request, self._over, self._cancelling, self._rest = request, False, False, b""
+        self._outcome = None
         environment = QProcessEnvironment.systemEnvironment()
         paths = [str(ROOT), environment.value("PYTHONPATH")]
         environment.insert("PYTHONPATH", (";" if sys.platform == "win32" else ":").join(filter(None, paths)))
@@ -89,11 +92,11 @@ class ExportJob(QObject):
         if isinstance(share, int | float):
             self.progress.emit(float(share))
         elif isinstance(message.get("done"), dict):
-            self._end(self.finished, message["done"])
+            self._outcome = (self.finished, message["done"])
         elif "error" in message:
-            self._end(self.failed, str(message["error"]))
+            self._outcome = (self.failed, str(message["error"]))
         elif "cancelled" in message:
-            self._end(self.cancelled)
+            self._outcome = (self.cancelled,)
 
     def _end(self, signal: SignalInstance, *values: object) -> None:
         if not self._over:
@@ -104,7 +107,9 @@ class ExportJob(QObject):
     def _on_finished(self, code: int, status: QProcess.ExitStatus) -> None:
         """Whatever it had to say was said; a process that went without a word failed."""
         self._read()
-        if self._cancelling:
+        if self._outcome is not None:
+            self._end(*self._outcome)
+        elif self._cancelling:
             self._end(self.cancelled)
         said = bytes(self._process.readAllStandardError().data()).decode("utf-8", "replace").strip().splitlines()
         why = said[-1] if said else f"exit code {code}" if status == QProcess.ExitStatus.NormalExit else "it was killed"

@@ -6,7 +6,8 @@ import argparse
 import importlib
 import threading
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Protocol
 
 import numpy as np
 
@@ -31,6 +32,12 @@ LOAD_SECONDS = 120.0  # as may loading torch from a slow disk
 _TARGET_FRAMES = 5  # frames whose Gaussians say what views turn about
 
 Announce = Callable[[str, str, float], None]  # phase, note for people, seconds it may be silent
+
+
+class Seen(Protocol):
+    """A prior in a run: `genmojo_core.optimise.unseen.UnseenViews`."""
+
+    seen: list[tuple[float, float, int]]
 
 
 class StopAsked(Exception):  # noqa: N818 - no fault
@@ -69,6 +76,23 @@ def build(clip: Clip, plan: EffectPlan, config: RunConfig, request: RunRequest) 
     return WatchedRun(clip, plan, config, request)
 
 
+class Directions:
+    """The views that have been supervised so far, each direction once (to a degree), in the order they came."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[float, float], tuple[float, float, float]] = {}
+        self._told = 0
+
+    def rows(self, unseen: Seen | None, frames: int) -> np.ndarray:  # (M, 3) float32
+        """Rows elevation, azimuth, frame: the clip's frames, then what a prior has judged."""
+        seen = [] if unseen is None else unseen.seen
+        for elevation, azimuth, frame in seen[self._told :]:
+            self._known.setdefault((round(elevation), round(azimuth)), (elevation, azimuth, float(frame)))
+        self._told = len(seen)
+        own = [(0.0, 0.0, float(t)) for t in range(frames)]
+        return np.array([*own, *self._known.values()], np.float32)
+
+
 @dataclass
 class WatchedRun:
     """A `genmojo_core.optimise.run.Run` with what a view needs to know (see session.Optimisation)."""
@@ -78,6 +102,7 @@ class WatchedRun:
     config: RunConfig
     request: RunRequest
     _setting: Setting | None = field(default=None, init=False)
+    _directions: Directions = field(default_factory=lambda: Directions(), init=False)
 
     def __post_init__(self) -> None:
         from genmojo_core.optimise.run import Run  # torch
@@ -139,11 +164,9 @@ class WatchedRun:
             objects = [SnapshotObject(o.id, o.name, PALETTE[i % len(PALETTE)]) for i, o in enumerate(scene.objects)]
             if scene.background is not None:
                 objects.append(SnapshotObject(0, "background", (0.5, 0.5, 0.5), True))
-            frames = len(clip)
-            supervised = np.stack([np.zeros(frames), np.zeros(frames), np.arange(frames)], 1).astype(np.float32)
-            self._setting = Setting(frames, tuple(objects), self.run.cameras().resized(*clip.source_size),
-                                    np.asarray(clip.world_up, float), self._target(), supervised)  # fmt: skip
-        return self._setting
+            self._setting = Setting(len(clip), tuple(objects), self.run.cameras().resized(*clip.source_size),
+                                    np.asarray(clip.world_up, float), self._target())  # fmt: skip
+        return replace(self._setting, supervised=self._directions.rows(self.run.unseen, len(self.clip)))
 
     def _target(self) -> np.ndarray:
         """Median of the objects' Gaussians over some frames."""

@@ -33,7 +33,11 @@ class WorkerProcess:
 
     @classmethod
     def started(cls, folder: Path, program: list[str] | None = None) -> WorkerProcess:
-        """Start a worker in a session of its own; what it prints goes to the folder's log."""
+        """Start a worker in a process group of its own; what it prints goes to the folder's log.
+
+        Not in a session of its own: Linux shares the cores among sessions first (autogroups), and the window's threads
+        could not give way to it any more.
+        """
         command = [*(program or [sys.executable, "-m", "genmojo_studio.worker.host"]), "--run-dir", str(folder)]
         paths = [str(ROOT), *filter(None, [os.environ.get("PYTHONPATH", "")])]
         environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths), "PYTHONUNBUFFERED": "1"}
@@ -45,7 +49,7 @@ class WorkerProcess:
                                          creationflags=flags)  # fmt: skip
             else:
                 child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log, env=environment,
-                                         start_new_session=True)  # fmt: skip
+                                         process_group=0)  # fmt: skip
         return cls(folder, child.pid, child)
 
     @property

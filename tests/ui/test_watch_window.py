@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QPushButton
 
@@ -14,6 +15,7 @@ from genmojo_core.store import scene_hdf5
 from genmojo_core.store.scene_file import BakedScene, SceneObject
 from genmojo_studio import theme
 from genmojo_studio.view3d.look import Mode
+from genmojo_studio.view3d.orbit import Orbit
 from genmojo_studio.view3d.snapshot import SceneSnapshot
 from genmojo_studio.watch import view_map
 from genmojo_studio.watch.time_bar import TimeBar
@@ -178,6 +180,49 @@ def test_the_map_shows_what_was_supervised_and_turns_the_view(window, watch, qtb
     QTest.keyClick(shown, Qt.Key.Key_Left)
     qtbot.waitUntil(lambda: watch.view.orbit.azimuth == pytest.approx(azimuth - 5), timeout=60_000)
     assert watch.view_panel.badge.property("role") == "warn"
+
+
+def test_what_is_behind_the_scene_follows_the_theme_or_the_choice(window, watch):
+    def behind():
+        return QColor.fromRgbF(*watch.view.look.backdrop).name()
+
+    dark = theme.colours(window.state.theme).canvas
+    assert behind() == dark
+    window.table.trigger("view.background")  # something to undo, in the old theme
+    window.table.trigger("window.theme")
+    light = theme.colours(window.state.theme).canvas
+    window.table.trigger("edit.undo")
+    assert behind() == light != dark
+    box = watch.view_panel.backdrop
+    box.setCurrentIndex(box.findData("#ffffff"))
+    box.activated.emit(box.currentIndex())
+    window.table.trigger("window.theme")
+    assert behind() == "#ffffff"
+    box.setCurrentIndex(0)
+    box.activated.emit(0)
+    assert behind() == dark
+
+
+def test_directions_that_a_prior_judges_come_to_the_map_while_the_run_goes_on(watch):
+    own = np.zeros((_FRAMES, 3), np.float32)
+    more = np.array([[20.0, 120.0, 1.0]], np.float32)
+    watch.session.take_preview(replace(watch.session.snapshot, supervised=own, version=50))
+    watch.view.set_orbit(Orbit(elevation=20.0, azimuth=118.0))
+    assert watch.view_panel.badge.property("role") == "warn"
+    watch.session.take_preview(replace(watch.session.snapshot, supervised=np.concatenate([own, more]), version=51))
+    assert watch.view_panel.badge.property("role") == "good"
+    shown = watch.view_panel.map
+    np.testing.assert_array_equal(shown._away, view_map.distances(np.concatenate([own, more])))
+
+
+def test_a_turn_of_the_time_bar_as_the_run_ends_is_no_fault(window, watch, told):
+    """The worker refuses what came too late; only what a person asked for is told."""
+    control = watch.control
+    control._unasked.add(7)
+    control._acknowledged(7, False, "The run is over.")
+    assert told == []
+    control._acknowledged(8, False, "The run is over.")
+    assert len(told) == 1
 
 
 def test_two_scenes_get_equal_room_and_the_input_comes_back(window, watch, qtbot):

@@ -120,6 +120,34 @@ def test_the_theme_changes_at_once_and_is_remembered(window):
     window.table.trigger("window.theme")
 
 
+def test_the_panels_go_away_and_come_back_as_they_were(window, qtbot):
+    """By key, in both workspaces, remembered; the picture gets the room."""
+    from genmojo_studio import app
+
+    window.show_workspace("watch")
+    watch = window.workspaces["watch"]
+    watch.docks["tracks"].close()
+    watch.docks["picking"].raise_()
+    shown = {name for name, dock in watch.docks.items() if not dock.isHidden()}
+    wide = watch.center.width()
+    assert window.table.trigger("window.panels") and window.table.is_checked("window.panels")
+    assert all(dock.isHidden() for dock in watch.docks.values())
+    qtbot.waitUntil(lambda: watch.center.width() > wide + 400, timeout=60_000)
+    window.show_workspace("annotate")
+    assert not window.table.is_checked("window.panels")  # each workspace for itself
+    other = app.make_window(app.QApplication.instance(), window.settings)
+    qtbot.addWidget(other)
+    other.show_workspace("watch")
+    assert all(dock.isHidden() for dock in other.workspaces["watch"].docks.values())
+    other.close()
+    window.show_workspace("watch")
+    window.table.trigger("window.panels")
+    assert {name for name, dock in watch.docks.items() if not dock.isHidden()} == shown
+    assert not window.settings.text("panels/watch")
+    window.table.trigger("window.reset")
+    assert not watch.docks["tracks"].isHidden()
+
+
 def test_the_layout_comes_back(window):
     window.show_workspace("watch")
     watch = window.workspaces["watch"]

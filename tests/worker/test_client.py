@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 import signal
 import subprocess
@@ -165,6 +166,49 @@ def test_a_window_that_was_killed_leaves_its_run_alive(tmp_path):
         window.until(lambda: window.client.state == "running")
         before = window.steps()
         window.until(lambda: window.steps() > before + 20)
+
+
+def test_events_that_got_lost_on_the_way_are_read_from_their_file(tmp_path):
+    """A worker short of memory drops messages; a window that hears of a later event tells the missing ones first."""
+    window = Watched(FAKE)
+    client = window.client
+    client.run_dir = str(tmp_path)
+    said = [{"event": "Step", "stage": "lift", "step": n} for n in range(1, 6)]
+    (tmp_path / runs.EVENTS).write_text("".join(json.dumps(event) + "\n" for event in said))
+    for n in (0, 3, 3, 4):
+        client._on_event({"type": "event", "n": n, "event": said[n]})
+    assert window.events == said
+    assert runs.steps_told(said) == 5
+    resumed = [*said, {"event": "Step", "stage": "joint", "step": 1}, {"event": "Step", "stage": "lift", "step": 4}]
+    assert runs.steps_told(resumed[:-1]) == 6 and runs.steps_told(resumed) == 4  # told again from a checkpoint
+
+
+def test_the_line_outlives_a_shortage_of_memory():
+    """Whatever fails for want of memory, its thread goes on and says what comes after."""
+    import socket
+
+    from genmojo_studio.worker.link import Link
+    from genmojo_studio.worker.protocol import VERSION, Decoder, encode
+
+    heard, shortages = [], iter(range(3))
+
+    def beat():
+        if next(shortages, None) is not None:
+            raise MemoryError
+        return {"step": 1}
+
+    with Link("token", dict, beat, heard.append) as link:
+        kind, _, path = link.address.partition(":")
+        if kind != "unix":
+            pytest.skip("loopback socket")
+        with socket.socket(socket.AF_UNIX) as line:
+            line.connect(path)
+            line.settimeout(60)
+            line.sendall(encode({"type": "hello", "version": VERSION, "token": "token"}))
+            decoder, said = Decoder(), []
+            while not any(message["type"] == "beat" for message in said):
+                said += decoder.feed(line.recv(1 << 16))
+            assert said[0]["type"] == "hello" and next(shortages, None) is None
 
 
 def test_two_windows_see_the_same_run(tmp_path):
