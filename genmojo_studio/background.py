@@ -21,7 +21,7 @@ _NICENESS = 10
 
 
 def give_way() -> None:
-    """The calling thread, and those it starts, have a low priority from now on (on Linux; elsewhere nothing changes)."""
+    """The calling thread, and those it starts, have a low priority from now on; on Linux, where threads have one."""
     if sys.platform == "linux":
         os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICENESS)
 

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Literal
 
+import torch
+
 from genmojo_core.config import RunConfig, goal_of
 from genmojo_core.events import Step
 from genmojo_core.optimise.gain import StopRule
-from genmojo_core.optimise.objective import HeldOut, Outcome
+from genmojo_core.optimise.objective import HeldOut, Objective, Outcome
 from genmojo_core.optimise.schedule import LIFT_SHARE, OUTWARD_SHARE, Pace, Stage
 from genmojo_core.store.atomic import append_line, write_bytes
 from genmojo_core.store.safe import json_text
 
 CURVE_EVERY = 20  # steps between points of the curve
+SCORED_FRAMES = 48  # frames that took no part yet and are looked at, at most
 
 
 class Clock:
@@ -69,6 +73,7 @@ class Progress:
         self.window = max(8, frames)
         self.curve_path: Path | None = None
         self._held: dict[int, HeldOut] = {}  # latest held-out errors of every frame
+        self._in_play: set[int] = set()  # frames that took part in a step
         self._last: Outcome | None = None
         self._stage = stages[0]
         self._stage_step = 0
@@ -89,8 +94,25 @@ class Progress:
         self.step += 1
         self._stage_step += 1
         self._last = outcome
-        self._held.update({row.frame: row for row in outcome.held_out if row.count and math.isfinite(row.squared)})
+        self._in_play.update(row.frame for row in outcome.held_out)
+        self._take(outcome)
         return self.step % CURVE_EVERY == 0 or self.step == 1
+
+    def score_rest(self, objective: Objective, apart: Sequence[int], deform: bool, clock: Clock) -> None:
+        """Held-out errors of frames that took no part yet, so that the curve is about the whole clip from its start.
+
+        Else it falls whenever frames join that no step has seen. `apart`: frames that never take part. The clock
+        stands still.
+        """
+        rest = [t for t in range(objective.frames) if t not in self._in_play and t not in apart]
+        clock.hold()
+        with torch.no_grad():
+            for t in rest[:: max(1, math.ceil(len(rest) / SCORED_FRAMES))]:
+                self._take(objective.evaluate([t], deform, torch.Generator().manual_seed(0)))
+        clock.go_on()
+
+    def _take(self, outcome: Outcome) -> None:
+        self._held.update({row.frame: row for row in outcome.held_out if row.count and math.isfinite(row.squared)})
 
     def point(self, clock: Clock, gaussians: int, **figures: float) -> None:
         """Add a point to the curve, with further figures of this moment, and a line to its file if it has one.

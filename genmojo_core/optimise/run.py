@@ -308,6 +308,7 @@ class Run:
         if start >= stage.steps:
             return
         yield StageStarted(*self.clock.now(), stage.name, stage.steps, "")
+        self.progress.score_rest(self.objective, self.held, stage.deform, self.clock)
         i = start
         while i < stage.steps:
             for message in self.guard.quarantine():

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QComboBox,
     QFormLayout,
     QGridLayout,
+    QHBoxLayout,
     QLabel,
     QPushButton,
     QSlider,
@@ -76,36 +77,31 @@ class ViewPanel(QWidget):
         self.canonical = QCheckBox(tr("Without motion"))
         form.addRow(tr("Splat size"), self.splat_scale)
         form.addRow(self.background, self.canonical)
-        self.backdrop = QComboBox()
-        for text, colour in (
-            (tr("As the theme"), ""),
-            (tr("Black"), "#000000"),
-            (tr("White"), "#ffffff"),
-            (tr("Another colour…"), None),
-        ):
-            self.backdrop.addItem(text, colour)
-        self.backdrop.setToolTip(tr("The colour behind the scene"))
+        self.backdrop = _backdrops()
         self.backdrop.activated.connect(self._choose_backdrop)
         form.addRow(tr("Behind it"), self.backdrop)
-        self._show_backdrop()
-        copy, paste = QPushButton(tr("Copy")), QPushButton(tr("Paste"))
-        copy.setToolTip(tr("Copies these numbers as text"))
-        copy.clicked.connect(lambda: QGuiApplication.clipboard().setText(self._orbit.text()))
-        paste.clicked.connect(self._paste)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(8, 8, 8, 8)
         layout.addLayout(form)
         layout.addWidget(self.map)
         layout.addWidget(self.badge)
         layout.addLayout(_directions(actions))
-        layout.addLayout(row(copy, paste))
+        layout.addLayout(self._copying())
         layout.addStretch()
         self.splat_scale.valueChanged.connect(self._scale)
         self.background.clicked.connect(lambda: actions.trigger("view.background"))
         self.canonical.clicked.connect(lambda: actions.trigger("view.canonical"))
         appearance.changed.connect(self._show_look)
         self._show_look()
+        self._show_backdrop()
         self.setEnabled(False)
+
+    def _copying(self) -> QHBoxLayout:
+        copy, paste = QPushButton(tr("Copy")), QPushButton(tr("Paste"))
+        copy.setToolTip(tr("Copies these numbers as text"))
+        copy.clicked.connect(lambda: QGuiApplication.clipboard().setText(self._orbit.text()))
+        paste.clicked.connect(self._paste)
+        return row(copy, paste)
 
     def show_orbit(self, orbit: Orbit, reference: Reference, supervised: np.ndarray) -> None:
         """Shows where the view is; `supervised` are rows (elevation, azimuth, frame) as in a snapshot."""
@@ -160,6 +156,20 @@ class ViewPanel(QWidget):
         self.splat_scale.blockSignals(False)
         self.background.setChecked(look.show_background)
         self.canonical.setChecked(look.canonical)
+
+
+def _backdrops() -> QComboBox:
+    """What can be behind the scene; the last entry asks."""
+    box = QComboBox()
+    for text, colour in (
+        (tr("As the theme"), ""),
+        (tr("Black"), "#000000"),
+        (tr("White"), "#ffffff"),
+        (tr("Another colour…"), None),
+    ):
+        box.addItem(text, colour)
+    box.setToolTip(tr("The colour behind the scene"))
+    return box
 
 
 def _directions(actions: ActionTable) -> QGridLayout:

@@ -18,8 +18,8 @@ _PROGRAM = ["-m", "genmojo_studio.export.program"]
 class ExportJob(QObject):
     """One export.
 
-    Signals, one of the last three exactly once, after the process's end: progress(0..1); finished(dict with "path" and "files"),
-    failed(sentence), cancelled().
+    Signals, one of the last three exactly once, when the process has ended: progress(0..1);
+    finished(dict with "path" and "files"), failed(sentence), cancelled().
     """
 
     progress = Signal(float)

@@ -1460,6 +1460,14 @@
       <translation>Befehl suchen…  Strg+K</translation>
     </message>
     <message>
+      <source>Panels</source>
+      <translation>Bereiche</translation>
+    </message>
+    <message>
+      <source>Hides all panels, so that the pictures fill the window, or shows them (Ctrl+B)</source>
+      <translation>Blendet alle Bereiche aus, damit die Bilder das Fenster füllen, oder wieder ein (Strg+B)</translation>
+    </message>
+    <message>
       <source>Start</source>
       <translation>Start</translation>
     </message>
@@ -1952,12 +1960,12 @@
       <translation>Beenden und verwerfen</translation>
     </message>
     <message>
-      <source>Turn the view</source>
-      <translation>Ansicht drehen</translation>
-    </message>
-    <message>
       <source>No scene yet. Start a run (F5), or open a scene file.</source>
       <translation>Noch keine Szene. Starten Sie einen Lauf (F5) oder öffnen Sie eine Szene.</translation>
+    </message>
+    <message>
+      <source>Turn the view</source>
+      <translation>Ansicht drehen</translation>
     </message>
     <message>
       <source>Moves the objects apart</source>
@@ -2370,12 +2378,36 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Größe der Glocken</translation>
     </message>
     <message>
+      <source>The colour behind the scene</source>
+      <translation>Die Farbe hinter der Szene</translation>
+    </message>
+    <message>
+      <source>Behind it</source>
+      <translation>Dahinter</translation>
+    </message>
+    <message>
       <source>Copies these numbers as text</source>
       <translation>Kopiert diese Zahlen als Text</translation>
     </message>
     <message>
       <source>Seen: supervision reaches this view.</source>
       <translation>Gesehen: die Überwachung reicht bis hierher.</translation>
+    </message>
+    <message>
+      <source>As the theme</source>
+      <translation>Wie das Farbschema</translation>
+    </message>
+    <message>
+      <source>Black</source>
+      <translation>Schwarz</translation>
+    </message>
+    <message>
+      <source>White</source>
+      <translation>Weiß</translation>
+    </message>
+    <message>
+      <source>Another colour…</source>
+      <translation>Andere Farbe …</translation>
     </message>
     <message>
       <source>Copy</source>
@@ -2560,6 +2592,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Switches between the dark and the light theme.</source>
       <translation>Wechselt zwischen dunklem und hellem Aussehen.</translation>
+    </message>
+    <message>
+      <source>Pictures only</source>
+      <translation>Nur Bilder</translation>
+    </message>
+    <message>
+      <source>Hides all panels, so that the pictures fill the window; again brings them back.</source>
+      <translation>Blendet alle Bereiche aus, damit die Bilder das Fenster füllen; noch einmal bringt sie zurück.</translation>
     </message>
     <message>
       <source>Full screen</source>

@@ -41,6 +41,17 @@ def test_a_run_tells_its_stages_and_ends_with_a_better_scene(clip: Clip) -> None
     assert len(set(baked.uid.tolist())) == len(baked.uid)
 
 
+def test_the_curve_is_about_the_whole_clip_from_the_first_step_on() -> None:
+    """Frames that no step has seen count too: else the curve would fall whenever they join."""
+    clip = small_clip(frames=12, width=48)
+    run = small_run(clip, lift_steps=4, joint_steps=2, held_out_share=0.3)
+    for event in run:
+        if isinstance(event, Step):
+            assert [row["frame"] for row in sorted(run.progress.state()["held"], key=lambda row: row["frame"])] == list(
+                range(len(clip))
+            )
+
+
 def test_a_run_ends_when_its_goal_is_reached(clip: Clip) -> None:
     """Not before all frames take part, and with a scene; a goal out of reach changes nothing."""
     whole = list(small_run(clip, joint_steps=40, held_out_share=0.2))
