@@ -1,7 +1,7 @@
 """Work that would hold up the window, done on a thread, its result handed back on the UI thread.
 
-Such threads give way to an optimiser on the same cores: they take what it leaves, and a tenth of a core at most of what
-it wants.
+What is done again and again while a run goes on gives way to an optimiser on the same cores: such threads take what it
+leaves, and a tenth of a core at most of what it wants.
 """
 
 from __future__ import annotations
@@ -27,13 +27,18 @@ def give_way() -> None:
 
 
 class Tasks(QObject):
-    """The tasks of one window or panel: kept while they run, dropped together when it closes."""
+    """The tasks of one window or panel: kept while they run, dropped together when it closes.
+
+    Args:
+        yields: they give way to an optimiser.
+    """
 
     _ended = Signal(object)
 
-    def __init__(self, parent: QObject | None = None, threads: int = 1) -> None:
+    def __init__(self, parent: QObject | None = None, threads: int = 1, yields: bool = False) -> None:
         super().__init__(parent)
-        self._pool = ThreadPoolExecutor(threads, thread_name_prefix="genmojo-task", initializer=give_way)
+        manners = give_way if yields else None
+        self._pool = ThreadPoolExecutor(threads, thread_name_prefix="genmojo-task", initializer=manners)
         self._waiting: dict[Future[Any], tuple[Done, Failed]] = {}
         self._ended.connect(self._deliver, Qt.ConnectionType.QueuedConnection)
 

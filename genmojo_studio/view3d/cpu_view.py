@@ -169,8 +169,7 @@ class Drawer:
             self._thread = None
 
     def _work(self) -> None:
-        """Until stopped: draw what waits."""
-        give_way()
+        """Until stopped: draw what waits. The first picture, which may compile kernels, waits for nobody."""
         while True:
             with self._wake:
                 while self._waiting is None and not self._stopped:
@@ -183,6 +182,7 @@ class Drawer:
             except (GenmojoError, ImportError, MemoryError, RuntimeError) as error:
                 self._tell(self._failed, str(error).splitlines()[0] or type(error).__name__)
                 continue
+            give_way()
             self._tell(self._finished, pixels, report)
 
     def _tell(self, emit: Callable[..., None], *values: object) -> None:

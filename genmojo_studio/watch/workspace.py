@@ -181,7 +181,7 @@ class WatchWorkspace(QMainWindow):
         wide = max(290, self.width() // 6), max(380, self.width() // 5)
         self.resizeDocks([self.docks["view"], self.docks["run"]], list(wide), Qt.Orientation.Horizontal)
         self.resizeDocks([self.docks["curves"]], [self.height() // 3], Qt.Orientation.Vertical)
-        self.resizeDocks([self.docks["view"], self.docks["objects"]], [500, 240], Qt.Orientation.Vertical)
+        self.resizeDocks([self.docks["view"], self.docks["objects"]], [540, 240], Qt.Orientation.Vertical)
 
     def _dock(self, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
         dock = QDockWidget(title)
