@@ -138,7 +138,7 @@ class PickingPanel(QWidget):
         for i, (name, values) in enumerate(self.trajectory.curves(what).items()):
             colour = ("#e0524d", "#3fa45b", "#4f8fe0")[i] if what == "colour" else SERIES[i]
             symbol = "o" if len(values) == 1 else None
-            frames = np.arange(1, len(values) + 1)
+            frames = np.arange(len(values)) + self.trajectory.first + 1
             self.plot.plot(frames, values, name=name, pen=pg.mkPen(colour, width=2), symbol=symbol, symbolBrush=colour)
 
     def _show_frame(self) -> None:

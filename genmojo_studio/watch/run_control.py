@@ -100,6 +100,11 @@ class RunControl(QObject):
         if self.live:
             self._unasked.add(self.client.look(frame))
 
+    def sweep(self) -> None:
+        """All frames as they stand now, once."""
+        if self.live:
+            self._unasked.add(self.client.sweep())
+
     def show_view(self, shown: bool) -> None:
         """While nobody sees the view, the worker makes no previews."""
         self._view_shown = shown

@@ -155,7 +155,7 @@ class RunStatus(QWidget):
             bar.setValue(bar.maximum() if ended else min(stage.done, stage.steps))
             spent = (stage.ended if stage.ended is not None else max(log.now, stage.began)) - stage.began
             rest = spent / stage.done * (stage.steps - stage.done) if stage.done and not ended else math.nan
-            left.setText(spoken(spent) if ended or math.isnan(rest) else "−" + spoken(rest))
+            left.setText(spoken(spent) if ended or math.isnan(rest) else tr("{time} left").format(time=spoken(rest)))
         self.stages.setColumnStretch(1, 1)
 
     def _take_rule(self) -> None:

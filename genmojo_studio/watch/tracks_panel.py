@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
@@ -197,15 +199,23 @@ class TracksPanel(QWidget):
         self._state.set(playing=False, frame=round(at.x()) - 1)
 
     def _ask_import(self) -> None:
-        clip = self._state.clip
+        kinds = tr("Tracks, or the scene of another run") + " (*.npz *.h5 *.hdf5)"
+        path, _ = QFileDialog.getOpenFileName(self, tr("Import tracks"), "", kinds)
+        if path:
+            self.bring(Path(path))
+
+    def bring(self, path: Path) -> None:
+        """Adds the tracks of a file; a scene without any carries the reference's points through it."""
+        clip, reference = self._state.clip, self.sets.sets.get(str(self.reference.currentData()))
         if clip is None:
             return
-        path, _ = QFileDialog.getOpenFileName(self, tr("Import tracks"), "", "npz (*.npz)")
-        if path:
-            try:
-                self.add(path.rsplit("/", 1)[-1], "imported", track_sets.read(path, clip.source_size))
-            except GenmojoError as error:
-                notify.tell(error, self)
+        asked = None if reference is None else reference.tracks
+        name = path.name if path.name != "scene.h5" else f"{path.parent.name}/{path.name}"
+        self._tasks.run(
+            lambda: _brought(path, clip.source_size, asked),
+            lambda found: self.add(name, "imported", found),
+            lambda error: notify.tell(error, self),
+        )
 
     def _show_frame(self) -> None:
         self._here.setValue(self._state.frame + 1)
@@ -219,6 +229,21 @@ def _column(*parts: QWidget | QLayout) -> QVBoxLayout:
     for part in parts:
         column.addWidget(part) if isinstance(part, QWidget) else column.addLayout(part)
     return column
+
+
+def _brought(path: Path, size: tuple[int, int], asked: PointTracks | None) -> PointTracks:
+    """Tracks of a file in pixels of a clip of `size`. Raises GenmojoError for whatever the file can cause."""
+    if path.suffix.lower() not in (".h5", ".hdf5"):
+        return track_sets.read(path, size)
+    from genmojo_core.store import scene_hdf5
+
+    scene = scene_hdf5.read(path)
+    if scene.predicted is not None:
+        return scene.predicted.resized(*size)
+    if asked is None:
+        raise GenmojoError("empty", "holds no tracks, and there are none to carry through it", str(path),
+                           "import tracks first")  # fmt: skip
+    return _carried(scene, asked).resized(*size)
 
 
 def _carried(scene: BakedScene, asked: PointTracks) -> PointTracks:

@@ -14,7 +14,8 @@ from genmojo_studio.view3d.snapshot import SceneSnapshot
 class Trajectory:
     """A Gaussian in T frames.
 
-    position (T, 3) world; rotation (T, 4) wxyz; scale (T, 3) linear; opacity (T,); colour (T, 3).
+    position (T, 3) world; rotation (T, 4) wxyz; scale (T, 3) linear; opacity (T,); colour (T, 3). `first`: position of
+    the first of these frames in the clip.
     """
 
     uid: int
@@ -24,6 +25,7 @@ class Trajectory:
     scale: np.ndarray
     opacity: np.ndarray
     colour: np.ndarray
+    first: int = 0
 
     def curves(self, what: str) -> dict[str, np.ndarray]:
         """Name -> (T,) values of "position", "speed", "turn", "scale", "opacity" or "colour"."""
@@ -60,4 +62,5 @@ def of(snapshot: SceneSnapshot, row: int) -> Trajectory:
         np.stack([f.scales[row] for f in frames]),
         np.array([f.opacities[row] for f in frames]),
         np.stack([f.colours[row] for f in frames]),
+        snapshot.frame if snapshot.frames is None else 0,
     )

@@ -284,7 +284,7 @@ class WatchWorkspace(QMainWindow):
         self.docks["picking"].raise_()
         snapshot = self.session.snapshot
         if self.control.live and snapshot is not None and snapshot.frames is None:
-            self.control.client.sweep()  # the other frames, for its trajectory
+            self.control.sweep()  # the other frames, for its trajectory
         if found.main is not None:
             self.state.set(selected_object=found.main.object_id)
 

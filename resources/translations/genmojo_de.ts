@@ -2320,6 +2320,10 @@
       <translation>importiert</translation>
     </message>
     <message>
+      <source>Tracks, or the scene of another run</source>
+      <translation>Spuren oder die Szene eines anderen Laufs</translation>
+    </message>
+    <message>
       <source>Tracks</source>
       <translation>Spuren</translation>
     </message>
@@ -2358,6 +2362,10 @@ Points are supervised views, the ring is this view. Click, drag or use the arrow
 Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen oder Pfeiltasten drehen.</translation>
     </message>
     <message>
+      <source>The colour behind the scene</source>
+      <translation>Die Farbe hinter der Szene</translation>
+    </message>
+    <message>
       <source>Azimuth</source>
       <translation>Azimut</translation>
     </message>
@@ -2378,20 +2386,12 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Größe der Glocken</translation>
     </message>
     <message>
-      <source>The colour behind the scene</source>
-      <translation>Die Farbe hinter der Szene</translation>
-    </message>
-    <message>
       <source>Behind it</source>
       <translation>Dahinter</translation>
     </message>
     <message>
       <source>Copies these numbers as text</source>
       <translation>Kopiert diese Zahlen als Text</translation>
-    </message>
-    <message>
-      <source>Seen: supervision reaches this view.</source>
-      <translation>Gesehen: die Überwachung reicht bis hierher.</translation>
     </message>
     <message>
       <source>As the theme</source>
@@ -2408,6 +2408,10 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Another colour…</source>
       <translation>Andere Farbe …</translation>
+    </message>
+    <message>
+      <source>Seen: supervision reaches this view.</source>
+      <translation>Gesehen: die Überwachung reicht bis hierher.</translation>
     </message>
     <message>
       <source>Copy</source>

@@ -138,7 +138,7 @@ def _run(drive, watch):
     window.watchdog.reset()
     begun = time.monotonic()
     QTest.mouseClick(watch.setup.start_button, Qt.MouseButton.LeftButton)
-    drive.wait(lambda: watch.session.snapshot is not None, 60, "the first cloud")
+    drive.wait(lambda: watch.view.overlay.report is not None, 60, "the first cloud")  # drawn, not only known
     figures = {"first_cloud": time.monotonic() - begun}
     drive.shot("cloud")
     drive.wait(lambda: len(control.log.step) > 10, 240, "steps")

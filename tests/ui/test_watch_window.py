@@ -11,8 +11,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QPushButton
 
 from genmojo_core.clip.cameras import Cameras
+from genmojo_core.clip.clip import Clip
 from genmojo_core.store import scene_hdf5
 from genmojo_core.store.scene_file import BakedScene, SceneObject
+from genmojo_core.tracks.model import VISIBLE, PointTracks
 from genmojo_studio import theme
 from genmojo_studio.view3d.look import Mode
 from genmojo_studio.view3d.orbit import Orbit
@@ -111,6 +113,21 @@ def test_a_click_names_the_gaussian_and_follows_it_over_all_frames(watch, qtbot)
     way = watch.picking.trajectory
     assert way.object_id == 1 and watch.state.selected_object == 1
     assert way.position[:, 0] - way.position[0, 0] == pytest.approx(np.arange(_FRAMES) * 0.1, abs=1e-5)
+
+
+def test_tracks_of_another_run_come_from_its_scene(watch, qtbot, tmp_path):
+    """A scene file without tracks carries the points of the set that stands as reference."""
+    clip_tracks = PointTracks(np.full((1, _FRAMES, 2), 45.0, np.float32) + np.float32([11, 0]),
+                              np.full((1, _FRAMES), VISIBLE, np.uint8), np.ones(1, np.int64), (160, 90))  # fmt: skip
+    frames = np.zeros((_FRAMES, 90, 160, 3), np.uint8)
+    clip = Clip("c", "", frames, np.arange(_FRAMES), np.arange(_FRAMES) / 24, tuple("abcd"), (160, 90))
+    watch.state.open_clip(clip, tmp_path / "c")
+    watch.tracks.add("mine", "annotated", clip_tracks)
+    watch.tracks.bring(tmp_path / "scene.h5")
+    name = f"{tmp_path.name}/scene.h5"
+    qtbot.waitUntil(lambda: name in watch.tracks.sets.sets, timeout=60_000)
+    found = watch.tracks.sets.sets[name].tracks
+    assert found.xy.shape == (1, _FRAMES, 2) and np.linalg.norm(found.xy[0, 0] - (56, 45)) < 1.5
 
 
 def test_a_frozen_scene_is_compared_with_what_comes_after(watch, qtbot):
