@@ -25,7 +25,7 @@ from genmojo_core.optimise.first_poses import Moves
 from genmojo_core.optimise.lift import Lifted
 from genmojo_core.optimise.objective import Objective, Outcome
 from genmojo_core.priors.agreement import Seen, disagreement
-from genmojo_core.priors.completion import in_world, selected, surface_points, unseen_only
+from genmojo_core.priors.completion import CELL, in_world, surface_points, thinned, unseen_only
 from genmojo_core.priors.embedded import EmbeddedPrior, view_cameras
 from genmojo_core.priors.prior import ViewOffsets, ViewPrior
 from genmojo_core.priors.references import LEAST_VISIBLE, PlacedReference, reference_of
@@ -257,7 +257,7 @@ class UnseenViews:
         k = one.clip_indices[0]
         t = min(one.references, key=lambda f: abs(f - one.home))
         one.conditions[t] = prior.encode(one.references[t].reference)
-        points = in_world(surface_points(prior, one.conditions[t], 4 * count), one.references[t])
+        points = in_world(surface_points(prior, one.conditions[t]), one.references[t])
         points = points.moved(np.linalg.inv(motion.pose[t]))
         if motion.bend is not None:
             points = replace(points, xyz=motion.bend.undone(t, points.xyz))
@@ -266,11 +266,9 @@ class UnseenViews:
             xyz = points.xyz if motion.bend is None else motion.bend.at(int(f), points.xyz)
             pose = motion.pose[f]
             keep &= unseen_only(xyz @ pose[:3, :3].T + pose[:3, 3], self.clip, k, int(f))
-        rows = np.flatnonzero(keep)
-        if len(rows) > count:
-            rows = np.random.default_rng(self.config.seed).permutation(rows)[:count]
-        if len(rows):
-            _add(gaussians, selected(points, rows), lifted.frames_of[lifted.rows[k]], self._light(one.home))
+        points = thinned(points.chosen(keep), count, CELL * one.references[t].unit)
+        if len(points):
+            _add(gaussians, points, lifted.frames_of[lifted.rows[k]], self._light(one.home))
             self.completed.add(one.models[0].id)
 
     def _light(self, t: int) -> Tensor | float:

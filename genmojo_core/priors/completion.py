@@ -16,37 +16,65 @@ from genmojo_core.scene.initialise import Points, points_of_image, project
 
 SIDE = 64  # pixels of the pictures the surface is read from
 AROUND = ((0, 45), (0, -45), (0, 90), (0, -90), (0, 135), (0, -135), (0, 180), (30, 0), (-30, 0), (30, 180), (-30, 180))
-SURE = 0.5  # coverage from which a pixel belongs to the object
+SURE = 0.8  # coverage from which a view is sure of a surface: half of it is where a fuzzy body ends, and too far out
 CELL = 0.055  # prior's units: no two points of one cell are kept
 CLEAR = 0.08  # of the object's distance: how far in front of a seen surface a point contradicts it
 
 
-def surface_points(prior: EmbeddedPrior, condition: Condition, count: int) -> Points:
-    """At most `count` pieces of the predicted surface in the prior's space, from views all around it."""
+def surface_points(prior: EmbeddedPrior, condition: Condition) -> Points:
+    """Pieces of the predicted surface in the prior's space, from views all around it, a CELL apart.
+
+    Every view must be SURE of a piece: one view's depth is a mean along its ray and may lie beside a fuzzy body.
+    """
     distance = condition.reference.distance
     offsets = torch.tensor(AROUND, dtype=torch.float32)
-    views = ViewOffsets(offsets[:, 0], offsets[:, 1], torch.zeros(len(AROUND)))
-    pictures = prior.surface(condition, views, SIDE).movedim(1, -1).double().numpy()
+    directions = ViewOffsets(offsets[:, 0], offsets[:, 1], torch.zeros(len(AROUND)))
+    pictures = prior.surface(condition, directions, SIDE).movedim(1, -1).double().numpy()
     focal = SIDE / 2 * distance / HALF_EXTENT
-    found: list[Points] = []
-    for pose, picture in zip(view_cameras(condition.reference, views, distance), pictures, strict=True):
+    poses = view_cameras(condition.reference, directions, distance)
+    views = [View(pose, focal, focal, SIDE / 2, SIDE / 2, SIDE, SIDE) for pose in poses]
+    points = _nothing()
+    for view, picture in zip(views, pictures, strict=True):
         alpha = np.maximum(picture[..., 3], 1e-6)
         mask = picture[..., 3] > SURE
         if mask.sum() < 4:
             continue
-        rgb = np.clip(picture[..., :3] / alpha[..., None], 0, 1)
-        view = View(pose, focal, focal, SIDE / 2, SIDE / 2, SIDE, SIDE)
-        found.append(points_of_image(np.round(rgb * 255).astype(np.uint8), picture[..., 4] / alpha + distance, mask,
-                                     view, 2 * count))  # fmt: skip
-    if not found:
-        return _nothing()
-    points = found[0]
-    for more in found[1:]:
-        points = points.joined(more)
-    _, first = np.unique(np.floor(points.xyz / CELL).astype(int), axis=0, return_index=True)
-    if len(first) > count:
-        first = np.random.default_rng(0).permutation(first)[:count]
-    return selected(points, np.sort(first))
+        rgb = np.round(np.clip(picture[..., :3] / alpha[..., None], 0, 1) * 255).astype(np.uint8)
+        depth = picture[..., 4] / alpha + distance
+        points = points.joined(points_of_image(rgb, depth, mask, view, SIDE * SIDE))
+    inside = np.ones(len(points), bool)
+    for view, picture in zip(views, pictures, strict=True):
+        inside &= _looked_up(picture[..., 3], points.xyz, view) > SURE
+    return thinned(points.chosen(inside), len(points), CELL)
+
+
+def thinned(points: Points, count: int, cell: float) -> Points:
+    """At most `count` of the points, one per cell of a grid; each is made as wide as its cell, so that no gap is left.
+
+    Args:
+        cell: least side of a cell, in the points' units; it grows until `count` is enough.
+    """
+    if not len(points) or count < 1:
+        return points.chosen(np.zeros(len(points), bool))
+    first = _one_per_cell(points.xyz, cell)
+    while len(first) > count:
+        cell *= max(1.02, np.sqrt(len(first) / count) ** 0.5)
+        first = _one_per_cell(points.xyz, cell)
+    chosen = selected(points, np.sort(first))
+    length = np.linalg.norm(chosen.tangents, axis=2, keepdims=True)
+    wider = np.maximum(length, 0.5 * cell) / np.maximum(length, 1e-12)
+    return Points(chosen.xyz, chosen.rgb, np.maximum(chosen.sigma, 0.5 * cell), chosen.tangents * wider)
+
+
+def _one_per_cell(xyz: np.ndarray, cell: float) -> np.ndarray:
+    """Indices of the first point of every cell."""
+    return np.unique(np.floor((xyz - xyz.min(axis=0)) / cell).astype(np.int64), axis=0, return_index=True)[1]
+
+
+def _looked_up(coverage: np.ndarray, xyz: np.ndarray, view: View) -> np.ndarray:  # (N,)
+    """A view's coverage where points fall; 0 outside the picture."""
+    x, y = (project(xyz, view)[0] - 0.5).astype(np.float32).T.reshape(2, 1, -1)
+    return np.asarray(cv2.remap(coverage.astype(np.float32), x, y, cv2.INTER_LINEAR))[0] if len(xyz) else np.zeros(0)
 
 
 def in_world(points: Points, placed: PlacedReference) -> Points:

@@ -13,7 +13,7 @@ from genmojo_core.errors import GenmojoError
 from genmojo_core.priors import make, weights
 from genmojo_core.priors.agreement import Seen, disagreement, training_percentile
 from genmojo_core.priors.batches import batch_of, make_batch
-from genmojo_core.priors.completion import surface_points, unseen_only
+from genmojo_core.priors.completion import surface_points, thinned, unseen_only
 from genmojo_core.priors.denoiser import SPREAD, Denoiser
 from genmojo_core.priors.embedded import EmbeddedPrior
 from genmojo_core.priors.generator import FRONT, Variation, example
@@ -23,6 +23,7 @@ from genmojo_core.priors.tasks import DenoiserTask, VolumeTask, scores
 from genmojo_core.priors.test_set import frozen_examples
 from genmojo_core.priors.training import TrainingPlan, train
 from genmojo_core.priors.volume import FAR, NEAR, Rays, VolumeNet, picture_rays, render
+from genmojo_core.scene.initialise import Points
 from tests.priors.test_references import clip_with
 
 
@@ -135,7 +136,7 @@ def test_hard_conditions_give_finite_views(shipped, case):
     for value in (judged.clean, judged.mean, judged.confidence):
         assert torch.isfinite(value).all()
     if case == "empty":
-        assert not judged.mean.any() and len(surface_points(shipped, condition, 50)) == 0
+        assert not judged.mean.any() and len(surface_points(shipped, condition)) == 0
 
 
 def test_confidence_is_nothing_near_the_reference_and_between_inside_and_outside(shipped):
@@ -151,9 +152,24 @@ def test_confidence_is_nothing_near_the_reference_and_between_inside_and_outside
 def test_points_of_the_surface_lie_on_the_object(shipped):
     """Of a held-out object: most points within the true silhouette of every view around it."""
     one = frozen_examples()[3]
-    points = surface_points(shipped, shipped.encode(reference(one)), 400)
-    assert 50 < len(points) <= 400
+    points = surface_points(shipped, shipped.encode(reference(one)))
+    assert len(points) > 50
     assert np.abs(points.xyz).max() < 1.6 and np.median(points.xyz[:, 2]) > -FRONT
+
+
+@pytest.mark.parametrize("count", [1, 40, 900])
+def test_fewer_points_are_wider_so_that_a_surface_stays_closed(count):
+    """A sphere of many small pieces, thinned: no place of it is farther from a piece than its cell is wide."""
+    direction = np.random.default_rng(0).normal(size=(20_000, 3))
+    xyz = direction / np.linalg.norm(direction, axis=1, keepdims=True)
+    side = np.cross(xyz, [0.3, 0.5, 0.8])
+    side /= np.linalg.norm(side, axis=1, keepdims=True)
+    tangents = 1e-3 * np.stack([side, np.cross(xyz, side)], axis=1)
+    kept = thinned(Points(xyz, np.full_like(xyz, 0.5), np.full(len(xyz), 1e-3), tangents), count, 0.01)
+    assert 0 < len(kept) <= count
+    reach = np.linalg.norm(kept.tangents, axis=2).min(axis=1)
+    distance = np.linalg.norm(xyz[:500, None] - kept.xyz[None], axis=2)
+    assert (distance <= 3.47 * reach).any(axis=1).all()  # the diagonal of a cell whose half is the reach
 
 
 def test_points_are_denied_by_what_frames_show():
