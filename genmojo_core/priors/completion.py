@@ -58,7 +58,7 @@ def thinned(points: Points, count: int, cell: float) -> Points:
         return points.chosen(np.zeros(len(points), bool))
     first = _one_per_cell(points.xyz, cell)
     while len(first) > count:
-        cell *= max(1.02, np.sqrt(len(first) / count) ** 0.5)
+        cell *= 1.1
         first = _one_per_cell(points.xyz, cell)
     chosen = selected(points, np.sort(first))
     length = np.linalg.norm(chosen.tangents, axis=2, keepdims=True)
