@@ -32,6 +32,16 @@ _MODES = (
 )
 MODES = {f"mode.{name}": name for name, _ in _MODES}
 
+PANELS = (
+    ("view", "View"),
+    ("objects", "Objects"),
+    ("run", "Run"),
+    ("curves", "Curves"),
+    ("picking", "Picked Gaussian"),
+    ("tracks", "Point tracks"),
+    ("compare", "Compare scenes"),
+)
+
 COMPARES = ("scene", "side", "wipe", "onion", "difference")
 _COMPARE_TEXTS = ("Scene alone", "Input beside it", "Wipe", "Onion skin", "Difference")
 
@@ -58,6 +68,7 @@ ACTIONS = (
     _watch("view.solo", "Solo the selected object", "View", "S", checkable=True, help="Hides everything else."),
     _watch("view.edit_mask", "Edit this mask…", "View", "E", separator=True,
            help="Goes to the annotator's step Objects."),
+    *(_watch(f"panel.{name}", text, "Window/Panels", checkable=True) for name, text in PANELS),
     _watch("time.play", "Play or pause", "Time", "Space", help="Lets time run."),
     _watch("time.next", "Next frame", "Time", "Right", ".", repeats=True),
     _watch("time.previous", "Previous frame", "Time", "Left", ",", repeats=True),

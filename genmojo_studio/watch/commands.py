@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtWidgets import QFileDialog, QMessageBox
+from PySide6.QtWidgets import QDockWidget, QFileDialog, QMessageBox
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.atomic import write_bytes
@@ -76,6 +76,8 @@ def _bind_view(w: WatchWorkspace) -> None:
         lambda: w.state.selected_object is not None,
         lambda: bool(appearance.look.solo),
     )
+    for name, dock in w.docks.items():
+        bind_to(f"panel.{name}", partial(_show_panel, dock), checked=partial(_is_shown, dock))
     bind_to("view.edit_mask", partial(_edit_mask, w), lambda: w.state.clip is not None)
 
 
@@ -155,6 +157,19 @@ def _toggle(w: WatchWorkspace, name: str) -> None:
 def _toggle_tracks(w: WatchWorkspace) -> None:
     w.tracks_shown = not w.tracks_shown
     w.tracks.changed.emit()
+
+
+def _show_panel(dock: QDockWidget) -> None:
+    """To the front, wherever it is; one that is in front already goes away."""
+    if not dock.isHidden() and not dock.visibleRegion().isEmpty():
+        dock.close()
+    else:
+        dock.show()
+        dock.raise_()
+
+
+def _is_shown(dock: QDockWidget) -> bool:
+    return not dock.isHidden()
 
 
 def _shows(w: WatchWorkspace, mode: Mode) -> bool:

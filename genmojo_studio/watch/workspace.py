@@ -18,6 +18,7 @@ from genmojo_studio.translate import tr
 from genmojo_studio.undo import UndoStack
 from genmojo_studio.view3d.picking import Pick
 from genmojo_studio.watch import commands
+from genmojo_studio.watch.actions import PANELS
 from genmojo_studio.watch.appearance import Appearance
 from genmojo_studio.watch.center import Center
 from genmojo_studio.watch.compare_panel import ComparePanel
@@ -161,15 +162,16 @@ class WatchWorkspace(QMainWindow):
         )
         self.setCorner(Qt.Corner.BottomRightCorner, right)
         self.setCorner(Qt.Corner.BottomLeftCorner, left)
-        self.docks = {
-            "view": self._dock("view", tr("View"), scrolled(self.view_panel), left),
-            "objects": self._dock("objects", tr("Objects"), self.objects_panel, left),
-            "run": self._dock("run", tr("Run"), self.run_tabs, right),
-            "curves": self._dock("curves", tr("Curves"), scrolled(self.curves, True), bottom),
-            "picking": self._dock("picking", tr("Picked Gaussian"), scrolled(self.picking, True), bottom),
-            "tracks": self._dock("tracks", tr("Point tracks"), scrolled(self.tracks, True), bottom),
-            "compare": self._dock("compare", tr("Compare scenes"), scrolled(self.compare, True), bottom),
+        made = {
+            "view": (scrolled(self.view_panel), left),
+            "objects": (self.objects_panel, left),
+            "run": (self.run_tabs, right),
+            "curves": (scrolled(self.curves, True), bottom),
+            "picking": (scrolled(self.picking, True), bottom),
+            "tracks": (scrolled(self.tracks, True), bottom),
+            "compare": (scrolled(self.compare, True), bottom),
         }
+        self.docks = {name: self._dock(name, tr(title), *made[name]) for name, title in PANELS}
         for name in ("picking", "tracks", "compare"):
             self.tabifyDockWidget(self.docks["curves"], self.docks[name])
         self.docks["curves"].raise_()

@@ -2430,26 +2430,6 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Dieser Lauf</translation>
     </message>
     <message>
-      <source>View</source>
-      <translation>Ansicht</translation>
-    </message>
-    <message>
-      <source>Run</source>
-      <translation>Lauf</translation>
-    </message>
-    <message>
-      <source>Curves</source>
-      <translation>Kurven</translation>
-    </message>
-    <message>
-      <source>Picked Gaussian</source>
-      <translation>Gewählte Gaußglocke</translation>
-    </message>
-    <message>
-      <source>Compare scenes</source>
-      <translation>Szenen vergleichen</translation>
-    </message>
-    <message>
       <source>clip</source>
       <translation>Clip</translation>
     </message>
@@ -2670,6 +2650,10 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Eingabekamera</translation>
     </message>
     <message>
+      <source>View</source>
+      <translation>Ansicht</translation>
+    </message>
+    <message>
       <source>Direction</source>
       <translation>Richtung</translation>
     </message>
@@ -2768,6 +2752,22 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Goes to the annotator's step Objects.</source>
       <translation>Geht zum Schritt Objekte des Annotators.</translation>
+    </message>
+    <message>
+      <source>Run</source>
+      <translation>Lauf</translation>
+    </message>
+    <message>
+      <source>Curves</source>
+      <translation>Kurven</translation>
+    </message>
+    <message>
+      <source>Picked Gaussian</source>
+      <translation>Gewählte Gaußglocke</translation>
+    </message>
+    <message>
+      <source>Compare scenes</source>
+      <translation>Szenen vergleichen</translation>
     </message>
     <message>
       <source>Play or pause</source>

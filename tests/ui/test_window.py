@@ -144,8 +144,8 @@ def test_the_panels_go_away_and_come_back_as_they_were(window, qtbot):
     window.table.trigger("window.panels")
     assert {name for name, dock in watch.docks.items() if not dock.isHidden()} == shown
     assert not window.settings.text("panels/watch")
-    window.table.trigger("window.reset")
-    assert not watch.docks["tracks"].isHidden()
+    assert window.table.trigger("panel.tracks")  # the one that was closed by hand
+    assert not watch.docks["tracks"].isHidden() and window.table.is_checked("panel.tracks")
 
 
 def test_the_layout_comes_back(window):

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import QCoreApplication
-from PySide6.QtWidgets import QApplication
 
+from genmojo_studio.app import make_application
 from genmojo_studio.worker.client import WorkerClient
 from genmojo_studio.worker.protocol import RunRequest
 
@@ -24,7 +24,7 @@ def application() -> QCoreApplication:
     """The one application of the process; nothing here is shown, so no display is needed."""
     if QCoreApplication.instance() is None and sys.platform == "linux" and not os.environ.get("DISPLAY"):
         os.environ["QT_QPA_PLATFORM"] = "minimal"
-    return QCoreApplication.instance() or QApplication(["test"])
+    return QCoreApplication.instance() or make_application(["test"])  # tests of windows may come after these
 
 
 class Watched:
