@@ -21,6 +21,8 @@ ACTIONS = (
     Action("window.reset", "Reset the panels", "Window", help="Puts every panel where it was delivered."),
     Action("help.palette", "Find a command…", "Help", ("Ctrl+K", "Ctrl+Shift+P"), help="Type what you want to do."),
     Action("help.keys", "All shortcuts", "Help", ("F1",), help="Shows the keys that work here."),
-    Action("help.crash", "Reports of earlier crashes", "Help", separator=True, help="What faults left behind."),
+    Action("help.selftest", "Try hard cases on this machine…", "Help", separator=True,
+           help="Hostile splats, masks, depths and numbers that go bad, with a verdict each; some minutes."),
+    Action("help.crash", "Reports of earlier crashes", "Help", help="What faults left behind."),
     Action("help.about", "About and licences", "Help", help="Version, licences of what is inside."),
 )  # fmt: skip

@@ -18,6 +18,7 @@ from genmojo_studio.header import Header
 from genmojo_studio.menus import Menus
 from genmojo_studio.palette import Palette
 from genmojo_studio.panels import Panels
+from genmojo_studio.selftest_dialog import SelftestDialog
 from genmojo_studio.settings import Settings, data_folder
 from genmojo_studio.shortcuts import KeyEditor, KeySheet
 from genmojo_studio.state import AppState
@@ -180,6 +181,7 @@ class MainWindow(QMainWindow):
         bind("window.reset", self._reset_layout, lambda: bool(self.workspace))
         bind("help.palette", self._show_palette)
         bind("help.keys", lambda: KeySheet(self.table, self.workspace, self).exec())
+        bind("help.selftest", lambda: SelftestDialog(self).exec())
         bind("help.crash", self._show_crashes, lambda: bool(notify.crash_reports(data_folder() / "crashes")))
         bind("help.about", lambda: About(self).exec())
         self.state.subscribe(self._show_title, "clip", "clip_path", "scene_path")

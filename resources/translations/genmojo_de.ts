@@ -1508,6 +1508,50 @@
       <translation>Was möchten Sie tun?</translation>
     </message>
     <message>
+      <source>Hard cases on this machine</source>
+      <translation>Harte Fälle auf diesem Rechner</translation>
+    </message>
+    <message>
+      <source>Some minutes: hostile splats, masks, depths and numbers that go bad.</source>
+      <translation>Einige Minuten: feindliche Splats, Masken, Tiefen und Zahlen, die entgleisen.</translation>
+    </message>
+    <message>
+      <source>Row</source>
+      <translation>Zeile</translation>
+    </message>
+    <message>
+      <source>Case</source>
+      <translation>Fall</translation>
+    </message>
+    <message>
+      <source>What happened</source>
+      <translation>Was geschah</translation>
+    </message>
+    <message>
+      <source>Verdict</source>
+      <translation>Urteil</translation>
+    </message>
+    <message>
+      <source>Seconds</source>
+      <translation>Sekunden</translation>
+    </message>
+    <message>
+      <source>The self-test ended without a result.</source>
+      <translation>Der Selbsttest endete ohne Ergebnis.</translation>
+    </message>
+    <message>
+      <source>holds</source>
+      <translation>hält</translation>
+    </message>
+    <message>
+      <source>broken</source>
+      <translation>gebrochen</translation>
+    </message>
+    <message>
+      <source>{cases} cases, {failed} broken, {seconds:.0f} s.</source>
+      <translation>{cases} Fälle, {failed} gebrochen, {seconds:.0f} s.</translation>
+    </message>
+    <message>
       <source>All shortcuts</source>
       <translation>Alle Tasten</translation>
     </message>
@@ -2616,6 +2660,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Shows the keys that work here.</source>
       <translation>Zeigt die Tasten, die hier gelten.</translation>
+    </message>
+    <message>
+      <source>Try hard cases on this machine…</source>
+      <translation>Harte Fälle auf diesem Rechner versuchen…</translation>
+    </message>
+    <message>
+      <source>Hostile splats, masks, depths and numbers that go bad, with a verdict each; some minutes.</source>
+      <translation>Feindliche Splats, Masken, Tiefen und Zahlen, die entgleisen, jeweils mit Urteil; einige Minuten.</translation>
     </message>
     <message>
       <source>What faults left behind.</source>
