@@ -152,7 +152,8 @@ class ComparePanel(QWidget):
 
     def _freeze(self) -> None:
         if self._first is not None:
-            name = tr("{name}, frozen at step {step}").format(name=self._first.name, step=self._first.snapshot.step)
+            name, step = self._first.name, self._first.snapshot.step
+            name = tr("{name}, frozen at step {step}").format(name=name, step=step) if step else name
             self._take_second(Side(name, self._first.snapshot, self._first.scene))
 
     def _take_second(self, side: Side) -> None:

@@ -16,6 +16,7 @@ from genmojo_studio.translate import tr
 
 _AS_WIDE = QHeaderView.ResizeMode.ResizeToContents
 _NAME = Qt.ItemDataRole.UserRole
+_LAST_MS = 10_000  # a process that was killed is gone by then
 
 
 class EffectsTable(QTreeWidget):
@@ -41,11 +42,14 @@ class EffectsTable(QTreeWidget):
         self.frames = 0
         self.expected: dict[str, Any] = {}  # `Forecast.to_json` for the preset that was measured
         self._process: QProcess | None = None
+        self._closed = False
         self.itemChanged.connect(self._ticked)
 
     def measure(self, clip: Path, preset: str, masks: Path | None = None) -> None:
         """Asks what the clip (with corrected masks) calls for under a preset; an older question is dropped."""
         self.stop()
+        if self._closed:
+            return
         process = QProcess(self)
         process.finished.connect(self._finished)
         process.setProcessChannelMode(QProcess.ProcessChannelMode.SeparateChannels)
@@ -55,13 +59,19 @@ class EffectsTable(QTreeWidget):
         process.start(sys.executable, arguments)
 
     def stop(self) -> None:
-        """Drops a question that is still being answered."""
+        """Drops a question that is still being answered; its process goes when it has ended."""
         if self._process is not None:
-            self._process.finished.disconnect(self._finished)
-            self._process.kill()
-            self._process.waitForFinished(1000)
-            self._process.deleteLater()
-            self._process = None
+            old, self._process = self._process, None
+            old.finished.disconnect(self._finished)
+            old.finished.connect(old.deleteLater)
+            old.kill()
+
+    def close_process(self) -> None:
+        """The window goes: nothing is measured any more."""
+        self._closed = True
+        self.stop()
+        for process in self.findChildren(QProcess):
+            process.waitForFinished(_LAST_MS)
 
     def show_rows(self, rows: Sequence[Mapping[str, Any]]) -> None:
         """Fills the table with rows of `EffectPlan.to_json`."""

@@ -148,12 +148,13 @@ class TracksPanel(QWidget):
             self.list.addTopLevelItem(item)
         self.list.blockSignals(False)
         chosen = self.which.currentData(), self.reference.currentData()
-        for box, before, default in zip((self.which, self.reference), chosen, ("predicted", "annotated"), strict=True):
+        defaults = self._first_of("predicted") or self._first_of("imported"), self._first_of("annotated")
+        for box, before, default in zip((self.which, self.reference), chosen, defaults, strict=True):
             box.clear()
             for one in self.sets.sets.values():
                 box.addItem(one.name, one.name)
             kept = before in self.sets.sets and chosen[0] != chosen[1]
-            box.setCurrentIndex(max(box.findData(before if kept else self._first_of(default)), 0))
+            box.setCurrentIndex(max(box.findData(before if kept else default), 0))
         self._compare()
         self.changed.emit()
 

@@ -121,7 +121,7 @@ class WatchWorkspace(QMainWindow):
         if not may_leave(self.control, self):
             event.ignore()
             return
-        self.setup.effects.stop()
+        self.setup.effects.close_process()
         self.take_away.close()
         self.center.comparison.close()
         self.picking.close_tasks()

@@ -127,6 +127,7 @@ def test_tracks_of_another_run_come_from_its_scene(watch, qtbot, tmp_path):
     name = f"{tmp_path.name}/scene.h5"
     qtbot.waitUntil(lambda: name in watch.tracks.sets.sets, timeout=60_000)
     found = watch.tracks.sets.sets[name].tracks
+    assert watch.tracks.which.currentData() == name and watch.tracks.reference.currentData() == "mine"
     assert found.xy.shape == (1, _FRAMES, 2) and np.linalg.norm(found.xy[0, 0] - (56, 45)) < 1.5
 
 
