@@ -39,7 +39,7 @@ def screen() -> Iterator[str]:
         server.wait(timeout=10)
 
 
-def run_window(display: str, integration: str, *arguments: str, timeout: float = 200, **environment: str) -> dict:
+def run_window(display: str, integration: str, *arguments: str, timeout: float = 280, **environment: str) -> dict:
     """Run tests/view3d/window_program.py on a display with one of Qt's ways to OpenGL; its answer.
 
     `integration` is "xcb_glx", "xcb_egl" or "none". Skips where the program says that there is no driver.

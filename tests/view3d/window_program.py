@@ -30,7 +30,7 @@ from genmojo_studio.view3d.scene_view import SceneView
 from genmojo_studio.view3d.snapshot import SceneSnapshot
 from genmojo_studio.view3d.splat_view import SplatView
 
-LIMIT_S = 20.0
+LIMIT_S = 120.0  # a slow, busy machine draws at last
 
 
 class Watched:
@@ -47,6 +47,13 @@ class Watched:
         act()
         wait(lambda: bool(self.reports) and not self.reports[-1].request.moving)
         return self.reports[-1]
+
+    def rest(self) -> None:
+        """Until nothing is drawn any more."""
+        seen = -1
+        while seen != len(self.reports):
+            seen = len(self.reports)
+            QTest.qWait(300)
 
 
 def wait(done: Callable[[], bool]) -> None:
@@ -133,7 +140,7 @@ def life(engine: str) -> dict:
             answer["black"] = str(mode)
     watched.after(lambda: view.set_look(Look(canonical=True)))
     view.showMinimized()
-    QTest.qWait(200)
+    watched.rest()
     watched.reports.clear()
     view.set_orbit(Orbit(azimuth=7.0))
     QTest.qWait(400)

@@ -51,7 +51,7 @@ def test_the_latest_is_read_and_only_once(tmp_path_factory, sizes, reads, dtype)
                 found = reader.latest()
                 assert found.meta == {"i": i, "name": "ä"} and found.sequence == i + 1
                 np.testing.assert_array_equal(found.arrays["x"], array)
-                assert found.arrays["none"].shape == (0, 3) and abs(time.monotonic() - found.published) < 5
+                assert found.arrays["none"].shape == (0, 3) and abs(time.monotonic() - found.published) < 60
                 assert reader.latest() is None
         assert not reader.closed
     assert reader.closed
