@@ -18,7 +18,7 @@ from genmojo_core.hard_cases.runs import memory_mb, started
 from genmojo_core.kernels.threads import get_threads
 from genmojo_core.render import autograd
 from genmojo_core.render.cpu.rasterize import rasterize
-from genmojo_core.render.rasterizer import Rendering, Splats
+from genmojo_core.render.rasterizer import ALPHA_MAX, Rendering, Splats
 
 NAMES = ("means", "quats", "scales", "opacities", "features")
 FULL = 300_000  # splats that each fill a screen
@@ -93,7 +93,7 @@ def needles() -> str:
 
 
 def stacks() -> str:
-    """Stacks of any height: finite, coverage at most one."""
+    """Stacks of any height: finite, coverage at most one and at least that of the first layer, opaque ones too."""
     for count in (1, 23, 150, 2000):
         for opacity in (1 / 254, 0.5, 0.99, 1.0):
             layers = torch.linspace(2, 4, count)[:, None] * torch.tensor([0, 0, 1.0])
@@ -104,7 +104,8 @@ def stacks() -> str:
             hold(all(bool(torch.isfinite(g).all()) for g in gradients.values()), f"{count} x {opacity}: no gradient")
             most = float(picture.features.detach().max())
             hold(most <= 1 + 1e-6, f"{count} layers of {opacity:.3g} sum to {most}")
-    return "finite, sums at most 1 for 16 stacks"
+            hold(most >= 0.97 * min(opacity, ALPHA_MAX), f"{count} layers of {opacity:.3g} show {most}")
+    return "finite, sums at most 1 and shows its first layer, for 16 stacks"
 
 
 def nothing() -> str:
