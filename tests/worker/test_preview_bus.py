@@ -88,7 +88,7 @@ def test_no_torn_read_and_no_waiting_writer(tmp_path):
                 seen[k] = i
         written, slowest = child.stdout.read().split()
     assert min(seen) > 20 and int(written) > 100, (seen, written)
-    assert float(slowest) < 1.0  # it never waited for a reader (2 MB are written; the rest is a busy machine)
+    assert float(slowest) < 3.0  # of 4: it never waited for a reader, only for a busy machine
 
 
 def test_a_disturbed_copy_is_noticed(tmp_path):
