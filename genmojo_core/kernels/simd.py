@@ -267,6 +267,27 @@ def min8(typingctx: Any, a: types.Type, b: types.Type) -> Any:
 
 
 @instruction
+def max8(typingctx: Any, a: types.Type, b: types.Type) -> Any:
+    """The larger value per lane (b where a is NaN)."""
+
+    def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        a, b = (_as_vector(context, builder, t, v) for t, v in zip(signature.args, arguments, strict=True))
+        return builder.select(builder.fcmp_ordered(">", a, b), a, b)
+
+    return Float8(a, b), codegen
+
+
+@instruction
+def sqrt8(typingctx: Any, value: types.Type) -> Any:
+    """Square root per lane."""
+
+    def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        return _call(builder, "sqrt", list(arguments))
+
+    return Float8(Float8), codegen
+
+
+@instruction
 def select8(typingctx: Any, mask: types.Type, a: types.Type, b: types.Type) -> Any:
     """a where the mask holds, else b."""
 
@@ -297,6 +318,36 @@ def any_lane(typingctx: Any, mask: types.Type) -> Any:
         return builder.zext(builder.icmp_unsigned("!=", lanes, ir.Constant(lanes.type, 0)), ir.IntType(64))
 
     return types.int64(Mask8), codegen
+
+
+@instruction
+def store_bits(typingctx: Any, array: types.Type, index: types.Type, value: types.Type) -> Any:
+    """Write the lowest 32 bits of an int64 in place of one element of a flat float32 array."""
+
+    def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        array, index, value = arguments
+        data = context.make_array(signature.args[0])(context, builder, array).data
+        builder.store(builder.bitcast(builder.trunc(value, _I32), _F32), builder.gep(data, [index]))
+        return context.get_dummy_value()
+
+    return types.void(array, types.intp, types.int64), codegen
+
+
+@instruction
+def lanes_with_bit(typingctx: Any, array: types.Type, index: types.Type, bit: types.Type) -> Any:
+    """Which of eight elements written by `store_bits` have that bit (0..31) set: bit i of the result is lane i."""
+
+    def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        array, index, bit = arguments
+        words = builder.load(_pointer(context, builder, signature.args[0], array, index), align=4)
+        wanted = builder.shl(ir.Constant(_I32, 1), builder.trunc(bit, _I32))
+        single = builder.insert_element(ir.Constant(_I8, ir.Undefined), wanted, ir.Constant(_I32, 0))
+        wanted = builder.shuffle_vector(single, ir.Constant(_I8, ir.Undefined), ir.Constant(_I8, [0] * LANES))
+        found = builder.and_(builder.bitcast(words, _I8), wanted)
+        lanes = builder.icmp_unsigned("!=", found, ir.Constant(_I8, [0] * LANES))
+        return builder.zext(builder.bitcast(lanes, ir.IntType(8)), ir.IntType(64))
+
+    return types.int64(array, types.intp, types.int64), codegen
 
 
 @instruction

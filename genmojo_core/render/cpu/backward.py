@@ -40,8 +40,6 @@ from genmojo_core.render.cpu.bins import TILE, Bins
 from genmojo_core.render.cpu.forward import (
     AHEAD,
     ALPHAS,
-    BLOCK_HEIGHT,
-    BLOCK_WIDTH,
     BLOCKS,
     LANES,
     MOST,
@@ -49,6 +47,8 @@ from genmojo_core.render.cpu.forward import (
     XS,
     YS,
     Drawing,
+    column,
+    line,
     prepare,
     write_alphas,
 )  # fmt: skip
@@ -83,7 +83,7 @@ def read_tile(drawing: Drawing, slopes: Slopes, scratch: np.ndarray, place: tupl
     left, top, pitch, plane = place
     for block in range(BLOCKS):
         cell = STATE + block * (HEADER + drawing.slots) * LANES
-        upper = (top + (block >> 2) * BLOCK_HEIGHT) * pitch + left + (block & 3) * BLOCK_WIDTH
+        upper = (top + line(block)) * pitch + left + column(block)
         g = load4x2(slopes.planes, upper, upper + pitch)
         s = g * load4x2(drawing.planes, upper, upper + pitch)
         store8(scratch, cell, splat8(np.float32(1)))

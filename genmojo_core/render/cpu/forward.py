@@ -1,9 +1,9 @@
 """Front-to-back blending, one tile of 16 x 16 pixels at a time.
 
-A tile is 32 blocks of 4 x 2 pixels; a block is one eight-lane vector. A tile's splats are taken in chunks: their
-records are copied side by side, and since every splat has a box, two sets of bits say which splats of the chunk touch
-a column of blocks and which a row of them. Both together are the splats of a block, walked by the lowest set bit while
-the block's pixels stay in registers. Per block and splat
+A tile is 32 blocks of 4 x 2 pixels, numbered down its four columns; a block is one eight-lane vector. A tile's splats
+are taken in chunks: their records are copied side by side, each with the blocks that its ellipse reaches, found for
+the eight rows of blocks at once. Bit b of those masks, for all splats of the chunk, are the splats of block b, walked by
+the lowest set bit while the block's pixels stay in registers. Per block and splat
 
     e = log2(alpha) = log2(o) + A dx^2 + B dx dy + C dy^2      (A, B, C carry the conic and log2 e)
     alpha = min(0.99, 2^e) where e >= log2(1/255), else 0;  rest = T - alpha T;  stop = rest <= 1e-4
@@ -21,21 +21,26 @@ from typing import NamedTuple
 import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
-from genmojo_core.kernels.scalars import larger, smaller
+from genmojo_core.kernels.scalars import smaller
 from genmojo_core.kernels.simd import (
     EXP2_FLOATS,
     any_lane,
+    bits,
     broadcast8,
     exp2_8,
     fma,
+    lanes_with_bit,
     load8,
+    max8,
     min8,
     prefetch,
     prepare_exp2,
     select8,
     splat8,
+    sqrt8,
     store4x2,
     store8,
+    store_bits,
     store_rows,
     trailing_zeros,
 )  # fmt: skip
@@ -51,19 +56,23 @@ MOST = np.float32(ALPHA_MAX)
 STOP = np.float32(TRANSMITTANCE_MIN)
 AHEAD = 8  # entries
 CHUNK = 56  # splats of a tile taken at once: as many bits fit into an int64 with some to spare
+# Pixels added to an ellipse's reach, once and for each pixel that its centre is away from the tile's corner; a factor
+# just above 1 on what nearly cancels in needles; a reach that touches nothing.
+MARGIN, MARGIN_OF_X, ROUNDING = np.float32(0.01), np.float32(1e-6), np.float32(1 + 1e-6)
+NOWHERE = np.float32(-1e30)
 ROW = 24  # floats of a copied record: geometry and at most 16 slots, rounded up to 8
 WIDE = 10  # slots blended along with the transmittance; the others follow in loops of their own
-# A tile's scratch, in floats: constants of exp2, pixel centres, records, one block's weights, the state of the blocks.
+# A tile's scratch, in floats: constants of exp2, pixel centres, the first pixel's y in each row of blocks, records and
+# masks of the chunk, one block's weights, the state of the blocks.
 XS = EXP2_FLOATS
 YS = XS + BLOCKS * LANES
-ROWS = YS + BLOCKS * LANES
+LINES = YS + BLOCKS * LANES
+ROWS = LINES + LANES
 ALPHAS = ROWS  # of the backward pass, which copies no records
-WEIGHTS = ROWS + CHUNK * ROW
+MASKS = ROWS + CHUNK * ROW
+WEIGHTS = MASKS + CHUNK
 STATE = WEIGHTS + CHUNK * LANES
-# A tile's marks, in int64: per column and per row of blocks, which splats of the chunk touch it.
-# From HITS on, the blocks that saw each splat of the chunk.
-COLUMNS, LINES, HITS = 0, 4, 12
-MARKS = HITS + CHUNK
+MARKS = CHUNK  # a tile's marks, in int64: the blocks that saw each splat of the chunk
 
 
 class Drawing(NamedTuple):
@@ -90,11 +99,23 @@ def drawing_floats(slots: int) -> int:
 
 
 @inlined
+def column(block: int) -> int:
+    """First pixel column of a block inside its tile."""
+    return (block >> 3) * BLOCK_WIDTH
+
+
+@inlined
+def line(block: int) -> int:
+    """First pixel row of a block inside its tile."""
+    return (block & 7) * BLOCK_HEIGHT
+
+
+@inlined
 def inside_mask(left: int, top: int, width: int, height: int) -> int:
     """Blocks of the tile with at least one pixel of the image."""
     columns = smaller((width - left + BLOCK_WIDTH - 1) // BLOCK_WIDTH, 4)
     rows = smaller((height - top + BLOCK_HEIGHT - 1) // BLOCK_HEIGHT, 8)
-    return (((1 << columns) - 1) * 0x11111111) & ((1 << (4 * rows)) - 1)
+    return (((1 << rows) - 1) * 0x01010101) & ((1 << (8 * columns)) - 1)
 
 
 @inlined
@@ -104,40 +125,58 @@ def prepare(scratch: np.ndarray) -> None:
     for block in range(BLOCKS):
         for lane in range(LANES):
             at = block * LANES + lane
-            scratch[XS + at] = (block & 3) * BLOCK_WIDTH + (lane & 3) + 0.5
-            scratch[YS + at] = (block >> 2) * BLOCK_HEIGHT + (lane >> 2) + 0.5
+            scratch[XS + at] = column(block) + (lane & 3) + 0.5
+            scratch[YS + at] = line(block) + (lane >> 2) + 0.5
+    for row in range(LANES):
+        scratch[LINES + row] = line(row) + 0.5
+
+
+@inlined
+def reached(scratch: np.ndarray, row: int) -> int:
+    """The blocks where a copied record may pass the cut: those its ellipse touches in either of their pixel rows.
+
+    In a pixel row dy from the centre the ellipse reaches from s dy - h to s dy + h with s = -B / 2A and
+    h^2 = (s^2 - C / A) dy^2 + (log2(1/255) - log2 o) / A; a little is added for rounding.
+    """
+    inverse = np.float32(1) / scratch[row + 2]
+    slope = np.float32(-0.5) * scratch[row + 3] * inverse
+    most = (CUT - scratch[row + 5]) * inverse
+    bend = slope * slope * ROUNDING - scratch[row + 4] * inverse
+    margin = MARGIN + MARGIN_OF_X * abs(scratch[row])
+    zero, none = splat8(np.float32(0)), splat8(NOWHERE)
+    first = load8(scratch, LINES) - scratch[row + 1]
+    second = first + np.float32(1)
+    square0, square1 = fma(first * first, bend, most), fma(second * second, bend, most)
+    half0, half1 = sqrt8(max8(square0, zero)) + margin, sqrt8(max8(square1, zero)) + margin
+    half0, half1 = select8(square0 >= zero, half0, none), select8(square1 >= zero, half1, none)
+    middle0, middle1 = fma(slope, first, scratch[row]), fma(slope, second, scratch[row])
+    low, high = min8(middle0 - half0, middle1 - half1), max8(middle0 + half0, middle1 + half1)
+    mask = 0
+    for block in range(0, BLOCKS, 8):
+        mask |= bits((low <= np.float32(column(block) + 3.5)) & (high >= np.float32(column(block) + 0.5))) << block
+    return mask
 
 
 @inlined
 def take_chunk(
     drawing: Drawing, bins: Bins, span: tuple, corner: tuple, scratch: np.ndarray, marks: np.ndarray
 ) -> None:
-    """Copy the records of entries span[0]..span[1]-1 into the scratch, centres from the tile's corner, and mark boxes.
-
-    A box marks the columns and rows of blocks that it touches.
-    """
-    left, top = corner
+    """Copy the records of entries span[0]..span[1]-1 into the scratch, centres from the tile's corner, with their masks."""
     width = GEOMETRY + drawing.slots
-    for i in range(HITS):
-        marks[i] = 0
     for k in range(span[1] - span[0]):
         rank = bins.rank[span[0] + k]
-        coming = bins.rank[smaller(span[0] + k + AHEAD, bins.rank.size - 1)]
-        prefetch(drawing.records, coming * width)
-        prefetch(bins.box, coming * 4)
+        prefetch(drawing.records, bins.rank[smaller(span[0] + k + AHEAD, bins.rank.size - 1)] * width)
         row = ROWS + k * ROW
         for i in range(0, width, LANES):
             store8(scratch, row + i, load8(drawing.records, rank * width + i))
         for i in range(width, GEOMETRY + WIDE):
             scratch[row + i] = 0
-        scratch[row] -= np.float32(left)
-        scratch[row + 1] -= np.float32(top)
-        first_x, last_x = larger(bins.box[rank, 0] - left, 0) >> 2, smaller(bins.box[rank, 1] - left, TILE - 1) >> 2
-        first_y, last_y = larger(bins.box[rank, 2] - top, 0) >> 1, smaller(bins.box[rank, 3] - top, TILE - 1) >> 1
-        touched = (((1 << (last_y + 1)) - (1 << first_y)) << LINES) + (1 << (last_x + 1)) - (1 << first_x)
-        marks[HITS + k] = 0
-        for i in range(HITS):
-            marks[i] |= ((touched >> i) & 1) << k
+        scratch[row] -= np.float32(corner[0])
+        scratch[row + 1] -= np.float32(corner[1])
+        store_bits(scratch, MASKS + k, reached(scratch, row))
+        marks[k] = 0
+    for k in range(span[1] - span[0], CHUNK):
+        store_bits(scratch, MASKS + k, 0)
 
 
 @inlined
@@ -187,7 +226,7 @@ def blend(scratch: np.ndarray, marks: np.ndarray, block: int, mask: int, cell: i
         hit, going = part > zero, rest > STOP
         w = select8(hit & going, part, zero)
         t = select8(going, rest, min8(t, zero - t))
-        marks[HITS + k] |= any_lane(hit) << block
+        marks[k] |= any_lane(hit) << block
         f = row + GEOMETRY
         c0, c1 = fma(w, broadcast8(scratch, f), c0), fma(w, broadcast8(scratch, f + 1), c1)
         c2, c3 = fma(w, broadcast8(scratch, f + 2), c2), fma(w, broadcast8(scratch, f + 3), c3)
@@ -218,13 +257,15 @@ def add_channels(scratch: np.ndarray, mask: int, cell: int, end: int, slots: int
 
 
 @inlined
-def draw_chunk(drawing: Drawing, alive: int, scratch: np.ndarray, marks: np.ndarray) -> int:
-    """Blend a chunk on all blocks `alive`; the blocks that stay alive."""
+def draw_chunk(drawing: Drawing, alive: int, count: int, scratch: np.ndarray, marks: np.ndarray) -> int:
+    """Blend a chunk of `count` splats on all blocks `alive`; the blocks that stay alive."""
     left = alive
     while left != 0:
         block = trailing_zeros(left)
         left &= left - 1
-        mask = marks[COLUMNS + (block & 3)] & marks[LINES + (block >> 2)]
+        mask = 0
+        for k in range(0, count, LANES):
+            mask |= lanes_with_bit(scratch, MASKS + k, block) << k
         if mask != 0:
             cell = STATE + block * drawing.stride
             end = blend(scratch, marks, block, mask, cell)
@@ -242,12 +283,12 @@ def write_tile(drawing: Drawing, scratch: np.ndarray, left: int, top: int, pitch
     """
     corner = top * pitch + left
     for block in range(BLOCKS):
-        place = corner + (block >> 2) * BLOCK_HEIGHT * pitch + (block & 3) * BLOCK_WIDTH
+        place = corner + line(block) * pitch + column(block)
         t = load8(scratch, STATE + block * drawing.stride)
         store4x2(drawing.planes, place, place + pitch, np.float32(1) - select8(t > np.float32(0), t, np.float32(0) - t))
     for c in range(1, 1 + drawing.slots):
         for block in range(BLOCKS):
-            place = c * plane + corner + (block >> 2) * BLOCK_HEIGHT * pitch + (block & 3) * BLOCK_WIDTH
+            place = c * plane + corner + line(block) * pitch + column(block)
             store4x2(drawing.planes, place, place + pitch, load8(scratch, STATE + block * drawing.stride + c * LANES))
 
 
@@ -273,8 +314,8 @@ def draw_tiles(
         while first < last and alive != 0:
             count = smaller(CHUNK, last - first)
             take_chunk(drawing, bins, (first, first + count), (left, top), scratch, marks)
-            alive = draw_chunk(drawing, alive, scratch, marks)
+            alive = draw_chunk(drawing, alive, count, scratch, marks)
             for k in range(count):
-                drawing.hits[bins.slot[first + k]] = marks[HITS + k]
+                drawing.hits[bins.slot[first + k]] = marks[k]
             first += count
         write_tile(drawing, scratch, left, top, pitch, pitch * bins.tiles_y * TILE)
