@@ -6,6 +6,7 @@ number of references that Python keeps of each object tells. Filling fresh pages
 
 from __future__ import annotations
 
+import math
 import sys
 import threading
 from typing import Any
@@ -24,8 +25,7 @@ _FREE = sys.getrefcount(_sample[0]) if _COUNTS else 0  # of an array that only a
 
 def take(shape: tuple[int, ...], dtype: Any = np.float32) -> np.ndarray:
     """An array of any content, C order; free for others once the caller's last view of it is gone."""
-    count = int(np.prod(shape, dtype=np.int64))
-    size = count * np.dtype(dtype).itemsize
+    size = math.prod(shape) * np.dtype(dtype).itemsize
     if size < SMALLEST or size > LIMIT or not _COUNTS:
         return np.empty(shape, dtype)
     with _lock:

@@ -30,6 +30,7 @@ SOURCES = (
     "scene/planes_cpu",
     "scene/motion_cpu",
     "render/rasterizer.py",
+    "render/loss_limits.py",
 )  # all that ends up in kernels
 
 _JIT: Any = numba.njit  # its stub does not know every option

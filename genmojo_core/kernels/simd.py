@@ -25,10 +25,10 @@ from genmojo_core.kernels.cache import inlined
 
 LANES = 8
 _NUMBERS = (types.Integer, types.Float)
-_F32 = ir.FloatType()
-_I32 = ir.IntType(32)
-_F8 = ir.VectorType(_F32, LANES)
-_I8 = ir.VectorType(_I32, LANES)
+F32 = ir.FloatType()
+I32 = ir.IntType(32)
+F8 = ir.VectorType(F32, LANES)
+I8 = ir.VectorType(I32, LANES)
 _M8 = ir.VectorType(ir.IntType(1), LANES)
 
 
@@ -60,7 +60,7 @@ class _Float8Model(models.PrimitiveModel):
     """Held as <8 x float>."""
 
     def __init__(self, dmm: Any, fe_type: Any) -> None:
-        super().__init__(dmm, fe_type, _F8)
+        super().__init__(dmm, fe_type, F8)
 
 
 @register_model(Mask8Type)
@@ -73,8 +73,8 @@ class _Mask8Model(models.PrimitiveModel):
 
 def _broadcast(builder: ir.IRBuilder, scalar: ir.Value) -> ir.Value:
     """One float32 in all lanes."""
-    single = builder.insert_element(ir.Constant(_F8, ir.Undefined), scalar, ir.Constant(_I32, 0))
-    return builder.shuffle_vector(single, ir.Constant(_F8, ir.Undefined), ir.Constant(_I8, [0] * LANES))
+    single = builder.insert_element(ir.Constant(F8, ir.Undefined), scalar, ir.Constant(I32, 0))
+    return builder.shuffle_vector(single, ir.Constant(F8, ir.Undefined), ir.Constant(I8, [0] * LANES))
 
 
 def _as_vector(context: Any, builder: ir.IRBuilder, kind: types.Type, value: ir.Value) -> ir.Value:
@@ -84,17 +84,17 @@ def _as_vector(context: Any, builder: ir.IRBuilder, kind: types.Type, value: ir.
     return _broadcast(builder, context.cast(builder, value, kind, types.float32))
 
 
-def _pointer(
+def pointer(
     context: Any, builder: ir.IRBuilder, kind: Any, array: ir.Value, index: ir.Value, lanes: int = LANES
 ) -> ir.Value:
     """Address of element `index` of a flat float32 array, as a pointer to that many lanes."""
     data = context.make_array(kind)(context, builder, array).data
-    return builder.bitcast(builder.gep(data, [index]), ir.VectorType(_F32, lanes).as_pointer())
+    return builder.bitcast(builder.gep(data, [index]), ir.VectorType(F32, lanes).as_pointer())
 
 
-def _call(builder: ir.IRBuilder, name: str, arguments: list[ir.Value]) -> ir.Value:
+def call(builder: ir.IRBuilder, name: str, arguments: list[ir.Value]) -> ir.Value:
     """Call a generic LLVM intrinsic on <8 x float>."""
-    signature = ir.FunctionType(_F8, [_F8] * len(arguments))
+    signature = ir.FunctionType(F8, [F8] * len(arguments))
     return builder.call(get_or_insert_function(builder.module, signature, f"llvm.{name}.v{LANES}f32"), arguments)
 
 
@@ -148,7 +148,7 @@ def _register(operation: Callable, fits: Callable, result: types.Type, build: Ca
 
 
 _ARITHMETIC = {operator.add: "fadd", operator.sub: "fsub", operator.mul: "fmul", operator.truediv: "fdiv"}
-_ORDER = {operator.ge: ">=", operator.gt: ">", operator.le: "<=", operator.lt: "<"}
+_ORDER = {operator.ge: ">=", operator.gt: ">", operator.le: "<=", operator.lt: "<", operator.eq: "=="}
 for _operation, _name in _ARITHMETIC.items():
     _register(_operation, _is_vector_operation, Float8, lambda builder, a, b, name=_name: getattr(builder, name)(a, b))
 for _operation, _name in _ORDER.items():
@@ -183,7 +183,7 @@ def load8(typingctx: Any, array: types.Type, index: types.Type) -> Any:
     """Eight consecutive elements of a flat float32 array from `index` on."""
 
     def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        return builder.load(_pointer(context, builder, signature.args[0], arguments[0], arguments[1]), align=4)
+        return builder.load(pointer(context, builder, signature.args[0], arguments[0], arguments[1]), align=4)
 
     return Float8(array, types.intp), codegen
 
@@ -194,7 +194,7 @@ def store8(typingctx: Any, array: types.Type, index: types.Type, value: types.Ty
 
     def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         array, index, value = arguments
-        builder.store(value, _pointer(context, builder, signature.args[0], array, index, LANES), align=4)
+        builder.store(value, pointer(context, builder, signature.args[0], array, index, LANES), align=4)
         return context.get_dummy_value()
 
     return types.void(array, types.intp, Float8), codegen
@@ -208,7 +208,7 @@ def store_rows(typingctx: Any, array: types.Type, index: types.Type, vectors: ty
         array, index, vectors = arguments
         for row in range(len(signature.args[2])):
             at = builder.add(index, ir.Constant(index.type, LANES * row))
-            place = _pointer(context, builder, signature.args[0], array, at)
+            place = pointer(context, builder, signature.args[0], array, at)
             builder.store(builder.extract_value(vectors, row), place, align=4)
         return context.get_dummy_value()
 
@@ -221,10 +221,10 @@ def load4x2(typingctx: Any, array: types.Type, upper: types.Type, lower: types.T
 
     def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         halves = [
-            builder.load(_pointer(context, builder, signature.args[0], arguments[0], index, 4), align=4)
+            builder.load(pointer(context, builder, signature.args[0], arguments[0], index, 4), align=4)
             for index in arguments[1:]
         ]
-        return builder.shuffle_vector(*halves, ir.Constant(_I8, list(range(LANES))))
+        return builder.shuffle_vector(*halves, ir.Constant(I8, list(range(LANES))))
 
     return Float8(array, types.intp, types.intp), codegen
 
@@ -236,9 +236,9 @@ def store4x2(typingctx: Any, array: types.Type, upper: types.Type, lower: types.
     def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         value = arguments[3]
         for half, index in enumerate(arguments[1:3]):
-            lanes = ir.Constant(ir.VectorType(_I32, 4), [4 * half + i for i in range(4)])
-            part = builder.shuffle_vector(value, ir.Constant(_F8, ir.Undefined), lanes)
-            builder.store(part, _pointer(context, builder, signature.args[0], arguments[0], index, 4), align=4)
+            lanes = ir.Constant(ir.VectorType(I32, 4), [4 * half + i for i in range(4)])
+            part = builder.shuffle_vector(value, ir.Constant(F8, ir.Undefined), lanes)
+            builder.store(part, pointer(context, builder, signature.args[0], arguments[0], index, 4), align=4)
         return context.get_dummy_value()
 
     return types.void(array, types.intp, types.intp, Float8), codegen
@@ -250,7 +250,7 @@ def fma(typingctx: Any, a: types.Type, b: types.Type, c: types.Type) -> Any:
 
     def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         vectors = [_as_vector(context, builder, t, v) for t, v in zip(signature.args, arguments, strict=True)]
-        return _call(builder, "fmuladd", vectors)
+        return call(builder, "fmuladd", vectors)
 
     return Float8(a, b, c), codegen
 
@@ -282,7 +282,7 @@ def sqrt8(typingctx: Any, value: types.Type) -> Any:
     """Square root per lane."""
 
     def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        return _call(builder, "sqrt", list(arguments))
+        return call(builder, "sqrt", list(arguments))
 
     return Float8(Float8), codegen
 
@@ -297,67 +297,6 @@ def select8(typingctx: Any, mask: types.Type, a: types.Type, b: types.Type) -> A
         return builder.select(arguments[0], a, b)
 
     return Float8(Mask8, a, b), codegen
-
-
-@instruction
-def bits(typingctx: Any, mask: types.Type) -> Any:
-    """The mask as an integer: bit i is lane i; 0 where no lane holds."""
-
-    def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        return builder.zext(builder.bitcast(arguments[0], ir.IntType(8)), ir.IntType(64))
-
-    return types.int64(Mask8), codegen
-
-
-@instruction
-def any_lane(typingctx: Any, mask: types.Type) -> Any:
-    """1 where some lane holds, else 0, as an int64."""
-
-    def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        lanes = builder.bitcast(arguments[0], ir.IntType(8))
-        return builder.zext(builder.icmp_unsigned("!=", lanes, ir.Constant(lanes.type, 0)), ir.IntType(64))
-
-    return types.int64(Mask8), codegen
-
-
-@instruction
-def store_bits(typingctx: Any, array: types.Type, index: types.Type, value: types.Type) -> Any:
-    """Write the lowest 32 bits of an int64 in place of one element of a flat float32 array."""
-
-    def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        array, index, value = arguments
-        data = context.make_array(signature.args[0])(context, builder, array).data
-        builder.store(builder.bitcast(builder.trunc(value, _I32), _F32), builder.gep(data, [index]))
-        return context.get_dummy_value()
-
-    return types.void(array, types.intp, types.int64), codegen
-
-
-@instruction
-def lanes_with_bit(typingctx: Any, array: types.Type, index: types.Type, bit: types.Type) -> Any:
-    """Which of eight elements written by `store_bits` have that bit (0..31) set: bit i of the result is lane i."""
-
-    def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        array, index, bit = arguments
-        words = builder.load(_pointer(context, builder, signature.args[0], array, index), align=4)
-        wanted = builder.shl(ir.Constant(_I32, 1), builder.trunc(bit, _I32))
-        single = builder.insert_element(ir.Constant(_I8, ir.Undefined), wanted, ir.Constant(_I32, 0))
-        wanted = builder.shuffle_vector(single, ir.Constant(_I8, ir.Undefined), ir.Constant(_I8, [0] * LANES))
-        found = builder.and_(builder.bitcast(words, _I8), wanted)
-        lanes = builder.icmp_unsigned("!=", found, ir.Constant(_I8, [0] * LANES))
-        return builder.zext(builder.bitcast(lanes, ir.IntType(8)), ir.IntType(64))
-
-    return types.int64(array, types.intp, types.int64), codegen
-
-
-@instruction
-def trailing_zeros(typingctx: Any, value: types.Type) -> Any:
-    """Index of the lowest set bit of a non-zero int64."""
-
-    def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        return builder.cttz(arguments[0], ir.Constant(ir.IntType(1), 1))
-
-    return types.int64(types.int64), codegen
 
 
 # 1.5 * 2**23, then minimax coefficients of 2**r on [-1/2, 1/2], highest power first, the constant fixed: error 9e-8.
@@ -389,14 +328,14 @@ def exp2_8(typingctx: Any, value: types.Type, table: types.Type) -> Any:
         constants = []
         for row in range(len(_EXP2)):
             at = ir.Constant(ir.IntType(64), row * LANES)
-            constants.append(builder.load(_pointer(context, builder, signature.args[1], table, at), align=4))
+            constants.append(builder.load(pointer(context, builder, signature.args[1], table, at), align=4))
         shifted = builder.fadd(x, constants[0])
         rest = builder.fsub(x, builder.fsub(shifted, constants[0]))
         power = constants[1]
         for constant in constants[2:]:
-            power = _call(builder, "fmuladd", [power, rest, constant])
-        exponent = builder.shl(builder.bitcast(shifted, _I8), ir.Constant(_I8, [23] * LANES))
-        return builder.bitcast(builder.add(builder.bitcast(power, _I8), exponent), _F8)
+            power = call(builder, "fmuladd", [power, rest, constant])
+        exponent = builder.shl(builder.bitcast(shifted, I8), ir.Constant(I8, [23] * LANES))
+        return builder.bitcast(builder.add(builder.bitcast(power, I8), exponent), F8)
 
     return Float8(Float8, table), codegen
 
@@ -410,9 +349,9 @@ def sum_rows(typingctx: Any, array: types.Type, index: types.Type) -> Any:
         rows = []
         for i in range(LANES):
             at = builder.add(index, ir.Constant(index.type, LANES * i))
-            rows.append(builder.load(_pointer(context, builder, signature.args[0], array, at, LANES), align=4))
+            rows.append(builder.load(pointer(context, builder, signature.args[0], array, at, LANES), align=4))
         # Each round pairs vectors and adds their even and odd lanes: 8 rows -> 4 -> 2 -> 1, lanes in row order.
-        even, odd = (ir.Constant(_I8, [2 * i + k for i in range(LANES)]) for k in (0, 1))
+        even, odd = (ir.Constant(I8, [2 * i + k for i in range(LANES)]) for k in (0, 1))
         while len(rows) > 1:
             rows = [
                 builder.fadd(builder.shuffle_vector(a, b, even), builder.shuffle_vector(a, b, odd))
@@ -430,8 +369,8 @@ def prefetch(typingctx: Any, array: types.Type, index: types.Type) -> Any:
     def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         data = context.make_array(signature.args[0])(context, builder, arguments[0]).data
         address = builder.bitcast(builder.gep(data, [arguments[1]]), ir.IntType(8).as_pointer())
-        kind = ir.FunctionType(ir.VoidType(), [address.type, _I32, _I32, _I32])
-        hint = [ir.Constant(_I32, v) for v in (0, 3, 1)]
+        kind = ir.FunctionType(ir.VoidType(), [address.type, I32, I32, I32])
+        hint = [ir.Constant(I32, v) for v in (0, 3, 1)]
         builder.call(builder.module.declare_intrinsic("llvm.prefetch", [address.type], kind), [address, *hint])
         return context.get_dummy_value()
 

@@ -6,9 +6,9 @@ import numpy as np
 from numba.core.errors import NumbaError
 
 from genmojo_core.kernels.cache import kernel
+from genmojo_core.kernels.lane_bits import bits, trailing_zeros
 from genmojo_core.kernels.simd import (
     EXP2_FLOATS,
-    bits,
     exp2_8,
     fma,
     load8,
@@ -16,8 +16,7 @@ from genmojo_core.kernels.simd import (
     select8,
     store8,
     sum_rows,
-    trailing_zeros,
-)
+)  # fmt: skip
 
 
 @kernel

@@ -1,7 +1,8 @@
 """Data terms of the joint splat: occlusion-aware colour, coverage, instance, depth, flow and track losses.
 
-METHOD.md section 5, in units where the colour term's weight is 1. Every loss is a finite scalar with gradient, zero
-where nothing is to be compared. All pixels that are void or held out are left out of every term.
+METHOD.md section 5, in units where the colour term's weight is 1. Here in plain torch, for any device and as the
+meaning of the fused kernels that take their place on the CPU (joint_loss.py). Every loss is a finite scalar with
+gradient, zero where nothing is to be compared. All pixels that are void or held out are left out of every term.
 """
 
 from __future__ import annotations
@@ -12,15 +13,13 @@ import torch
 from torch import Tensor
 
 from genmojo_core.optimise.targets import FrameTargets
+from genmojo_core.render.loss_limits import ALPHA_FLOOR, FEWEST, FLOW_LIMIT, GUESSED_DEPTH, LABEL_FLOOR, SHOWN
 from genmojo_core.render.rasterizer import Rendering
 from genmojo_core.render.ssim import ssim_map, whole_windows
 from genmojo_core.scene import safemath
 from genmojo_core.scene.scene4d import Layout
 
-HALF = 0.5
 REACHED = 1e-3  # coverage by which an object has reached a pixel
-GUESSED_DEPTH = 0.1  # weight of a guessed depth's shape against a measured depth's value
-FLOW_LIMIT = 10.0  # flow errors above this many percent of the diagonal are taken for wrong flow
 
 
 def masked_mean(values: Tensor, weight: Tensor) -> Tensor:
@@ -47,10 +46,15 @@ def similarity(rendering: Rendering, target: FrameTargets) -> Tensor:  # (H, W)
     return ssim_map(rendering.features[None, ..., :3], target.rgb[None])[0].mean(-1)
 
 
-def similarity_loss(similar: Tensor, target: FrameTargets, inside: Tensor) -> Tensor:
+def similarity_loss(similar: Tensor, target: FrameTargets) -> Tensor:
     """1 - SSIM of `similarity`, balanced; a window counts where all its pixels are seen."""
-    whole = whole_windows(target.seen[None] > 0)[0]
-    return balanced(1.0 - torch.where(whole, similar, 1.0), inside, whole.float())
+    if "windows" not in target.kept:
+        inside = (target.labels > 0).float()
+        whole = whole_windows(target.seen[None] > 0)[0].float()
+        parts = (inside * whole, (1.0 - inside) * whole)
+        target.kept["windows"] = sum(part / part.sum().clamp(min=1.0) for part in parts)
+    weight = target.kept["windows"].to(similar)
+    return weight.sum() - (weight * similar).sum()
 
 
 def coverage_loss(rendering: Rendering, layout: Layout, target: FrameTargets, inside: Tensor) -> Tensor:
@@ -89,7 +93,7 @@ def label_loss(rendering: Rendering, layout: Layout, target: FrameTargets) -> Te
     probabilities = torch.cat([background, labels], dim=-1)
     own = probabilities.gather(-1, target.labels.clamp(max=layout.labels)[..., None])[..., 0]
     foreground = (target.labels > 0).float()
-    return balanced(-safemath.safe_log(own, 1e-2), foreground, target.seen)
+    return balanced(-safemath.safe_log(own, LABEL_FLOOR), foreground, target.seen)
 
 
 def depth_loss(rendering: Rendering, layout: Layout, target: FrameTargets) -> Tensor:
@@ -101,10 +105,10 @@ def depth_loss(rendering: Rendering, layout: Layout, target: FrameTargets) -> Te
     shown = rendering.features.detach().reshape(-1, rendering.features.shape[-1])
     total = rendering.depth.sum() * 0.0
     for k, pixels in enumerate(target.depth_pixels):
-        pixels = pixels[shown[pixels, 3 + min(k, layout.labels - 1)] > HALF]
-        if len(pixels) < 16:
+        pixels = pixels[shown[pixels, 3 + min(k, layout.labels - 1)] > SHOWN]
+        if len(pixels) < FEWEST:
             continue
-        depth = safemath.safe_divide(flat_depth[pixels], flat_alpha[pixels], 1e-4)
+        depth = safemath.safe_divide(flat_depth[pixels], flat_alpha[pixels], ALPHA_FLOOR)
         expected = target.depth.reshape(-1)[pixels]
         if target.depth_scaled:
             total = total + ((depth - expected) / expected.clamp(min=1e-6)).abs().mean()
@@ -125,7 +129,7 @@ def flow_loss(rendering: Rendering, layout: Layout, target: FrameTargets) -> Ten
     start = 3 + layout.labels
     features = rendering.features.reshape(-1, layout.channels)
     coverage = features[target.flow_pixels, 3:start].sum(-1).detach()
-    pixels, coverage = target.flow_pixels[coverage > HALF], coverage[coverage > HALF]
+    pixels, coverage = target.flow_pixels[coverage > SHOWN], coverage[coverage > SHOWN]
     if not len(pixels):
         return rendering.features.sum() * 0.0
     height, width = target.labels.shape
@@ -160,7 +164,7 @@ def order_loss(
     if not bool(other.any()):
         return depths.sum() * 0.0
     shown = rendering.features[..., 3 : 3 + layout.labels].detach()
-    right = shown[row, column].gather(1, (label - 1).clamp(min=0)[:, None])[:, 0] > HALF
-    surface = safemath.safe_divide(rendering.depth, rendering.alpha, 1e-4).detach()[row, column]
+    right = shown[row, column].gather(1, (label - 1).clamp(min=0)[:, None])[:, 0] > SHOWN
+    surface = safemath.safe_divide(rendering.depth, rendering.alpha, ALPHA_FLOOR).detach()[row, column]
     in_front = torch.relu(1.01 * surface - depths) / surface.clamp(min=1e-6)
     return masked_mean(in_front, (other & right).float())

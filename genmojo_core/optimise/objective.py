@@ -12,6 +12,7 @@ from genmojo_core.config import LossWeights
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.errors import GenmojoError
 from genmojo_core.optimise import losses
+from genmojo_core.optimise.joint_loss import Wanted, data_terms
 from genmojo_core.optimise.regularise import Neighbours, nearest, rigidity, scale_terms
 from genmojo_core.optimise.targets import FrameTargets, Targets
 from genmojo_core.render.backend import Splat
@@ -137,21 +138,12 @@ class Objective:
         self, t: int, now: list[ObjectState], rendering: Rendering, target: FrameTargets, similar: Tensor
     ) -> dict[str, Tensor]:
         layout = self.scene.layout
-        inside = (target.labels > 0).float()
-        terms = {
-            "rgb": losses.color_loss(rendering, target, inside, self.scene.background is not None),
-            "alpha": losses.coverage_loss(rendering, layout, target, inside),
-        }
-        if self.depth:
-            terms["depth"] = losses.depth_loss(rendering, layout, target)
+        wanted = Wanted(self.scene.background is not None, self.labels, self.depth)
+        terms = data_terms(rendering, layout, target, wanted)
         if self.compares_windows:
-            terms["ssim"] = losses.similarity_loss(similar, target, inside)
+            terms["ssim"] = losses.similarity_loss(similar, target)
         if now:
             terms["alpha"] = terms["alpha"] + losses.miss_loss(rendering, layout, target, self._centres(t, now))
-        if self.labels:
-            terms["labels"] = losses.label_loss(rendering, layout, target)
-        if layout.flow:
-            terms["flow"] = losses.flow_loss(rendering, layout, target)
         if self.order:
             terms["depth_order"] = self._order_term(t, now, rendering, target)
         return terms

@@ -21,7 +21,7 @@ class FrameTargets:
     (neither void nor held out); held_out (H, W) bool; depth (H, W) and depth_seen (H, W) float; flow (H, W, 2) px to
     the next frame and flow_seen (H, W) float. `depth_scaled` tells a measured depth from a guess.
     depth_pixels: for every label, flat indices of its pixels with depth; flow_pixels: flat indices of foreground with
-    flow. They spare the terms that look at a few pixels a walk over the whole image.
+    flow. They spare the terms that look at a few pixels a walk over the whole image. kept: what terms worked out once.
     """
 
     rgb: Tensor
@@ -44,6 +44,7 @@ class FrameTargets:
 
     depth_pixels: list[Tensor] = field(init=False, repr=False)
     flow_pixels: Tensor = field(init=False, repr=False)
+    kept: dict = field(init=False, repr=False, compare=False, default_factory=dict)
 
 
 def held_out_blocks(masks: np.ndarray, share: float, seed: int) -> np.ndarray:  # (T, H, W) labels -> bool

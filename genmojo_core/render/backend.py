@@ -72,6 +72,7 @@ def _compile(report: Callable[[str], None] | None) -> None:
         return
     from genmojo_core.kernels.cache import is_cold
     from genmojo_core.render import autograd
+    from genmojo_core.render.cpu import joint_loss
     from genmojo_core.render.ssim import ssim_map
     from genmojo_core.scene.motion_cpu.rigidity import Edges, Pair, rigid_terms
     from genmojo_core.scene.plane_sampling import sample_planes, sample_time_planes
@@ -87,3 +88,4 @@ def _compile(report: Callable[[str], None] | None) -> None:
     product.sum().backward()
     points, turns, index = np.zeros((1, 3), np.float32), np.zeros((1, 4), np.float32), np.zeros((1, 1), np.int64)
     rigid_terms(Pair(points, points, turns, turns), Edges(index, points[:, :1].copy(), index[0]))
+    joint_loss.warm_up()

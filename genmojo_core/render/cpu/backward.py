@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
+from genmojo_core.kernels.lane_bits import trailing_zeros
 from genmojo_core.kernels.scalars import smaller
 from genmojo_core.kernels.simd import (
     broadcast8,
@@ -34,7 +35,6 @@ from genmojo_core.kernels.simd import (
     store8,
     store_rows,
     sum_rows,
-    trailing_zeros,
 )  # fmt: skip
 from genmojo_core.render.cpu.bins import TILE, Bins
 from genmojo_core.render.cpu.forward import (

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from genmojo_core.errors import GenmojoError
+from genmojo_core.kernels.buffers import take
 from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.kernels.scalars import larger, smaller
 from genmojo_core.kernels.simd import prefetch
@@ -22,7 +23,7 @@ from genmojo_core.render.cpu.project import GEOMETRY, Ellipses, Lens
 TILE = 16  # pixels
 SHIFT = 4  # TILE as a power of two
 ENTRY_LIMIT = 2**24  # entries of one view: 1 GiB of gradient rows
-RADIX_BITS = 11
+RADIX_BITS, DIGITS = 11, 3  # 33 bits
 AHEAD = 8  # splats
 
 
@@ -44,27 +45,42 @@ def depth_order(depth: np.ndarray, box: np.ndarray) -> np.ndarray:
 
     Depths are positive, so their bits as unsigned integers rise with them.
     """
-    keys = depth.view(np.uint32)
-    order = np.flatnonzero(box[:, 0] <= box[:, 1]).astype(np.int64)
-    other = np.empty_like(order)
-    for shift in range(0, 32, RADIX_BITS):
-        sort_digit(keys, shift, order, np.zeros((1 << RADIX_BITS) + 1, np.int64), other)
-        order, other = other, order
-    return order
+    order, other = take(depth.shape, np.int64), take(depth.shape, np.int64)
+    starts = np.zeros((DIGITS, (1 << RADIX_BITS) + 1), np.int64)
+    return other[: sort_drawn(depth.view(np.uint32), box, starts, order, other)]
+
+
+@inlined
+def digit(key: int, place: int) -> int:
+    """One digit of a key."""
+    return (np.int64(key) >> (place * RADIX_BITS)) & ((1 << RADIX_BITS) - 1)
 
 
 @kernel
-def sort_digit(keys: np.ndarray, shift: int, order: np.ndarray, starts: np.ndarray, out: np.ndarray) -> None:
-    """Copy `order` to `out`, stably sorted by one digit of the keys; starts (digits + 1,) int64, zero on entry."""
-    digit_mask = (1 << RADIX_BITS) - 1
-    for k in range(order.size):
-        starts[((keys[order[k]] >> shift) & digit_mask) + 1] += 1
-    for digit in range(starts.size - 1):
-        starts[digit + 1] += starts[digit]
-    for k in range(order.size):
-        digit = (keys[order[k]] >> shift) & digit_mask
-        out[starts[digit]] = order[k]
-        starts[digit] += 1
+def sort_drawn(keys: np.ndarray, box: np.ndarray, starts: np.ndarray, order: np.ndarray, other: np.ndarray) -> int:
+    """Fill `other` with the drawn splats by rising key, stably, and return their number; `order` is spoilt.
+
+    starts: (DIGITS, digits + 1) int64, zero on entry. DIGITS is odd, so the last pass ends in `other`.
+    """
+    count = 0
+    for i in range(box.shape[0]):
+        if box[i, 0] <= box[i, 1]:
+            order[count] = i
+            count += 1
+            for place in range(DIGITS):
+                starts[place, digit(keys[i], place) + 1] += 1
+    for place in range(DIGITS):
+        for value in range(starts.shape[1] - 1):
+            starts[place, value + 1] += starts[place, value]
+        for k in range(count):
+            i = order[k] if place & 1 == 0 else other[k]
+            value = digit(keys[i], place)
+            if place & 1 == 0:
+                other[starts[place, value]] = i
+            else:
+                order[starts[place, value]] = i
+            starts[place, value] += 1
+    return count
 
 
 @kernel
@@ -140,7 +156,7 @@ def bin_splats(lens: Lens, order: np.ndarray, box: np.ndarray) -> Bins:
     Raises GenmojoError("budget") where splats cover so many tiles that the gradients would not fit into memory.
     """
     tiles_x, tiles_y = -(-lens.width // TILE), -(-lens.height // TILE)
-    first_slot = np.empty(len(order) + 1, np.int64)
+    first_slot = take((len(order) + 1,), np.int64)
     entries, worst = count_slots(box, first_slot)
     if entries > ENTRY_LIMIT:
         tiles = int(first_slot[worst + 1] - first_slot[worst])
@@ -155,7 +171,7 @@ def bin_splats(lens: Lens, order: np.ndarray, box: np.ndarray) -> Bins:
     band = -(-tiles_y // get_threads())  # of tile rows: every thread walks all splats
     run_ranges(lambda a, b: count_entries(a, b, box, tiles_x, tile_start), tiles_y, band)
     np.cumsum(tile_start, out=tile_start)
-    rank, slot = np.empty(entries, np.int32), np.empty(entries, np.int32)
+    rank, slot = take((entries,), np.int32), take((entries,), np.int32)
     bins = Bins(order, box, first_slot, tile_start, rank, slot, tiles_x, tiles_y)
     following = tile_start.copy()
     run_ranges(lambda a, b: scatter_entries(a, b, bins, following), tiles_y, band)

@@ -2,8 +2,8 @@
 
 A tile is 32 blocks of 4 x 2 pixels, numbered down its four columns; a block is one eight-lane vector. A tile's splats
 are taken in chunks: their records are copied side by side, each with the blocks that its ellipse reaches, found for
-the eight rows of blocks at once. Bit b of those masks, for all splats of the chunk, are the splats of block b, walked by
-the lowest set bit while the block's pixels stay in registers. Per block and splat
+the eight rows of blocks at once. Bit b of those masks, for all splats of the chunk, tells the splats of block b, walked
+by the lowest set bit while the block's pixels stay in registers. Per block and splat
 
     e = log2(alpha) = log2(o) + A dx^2 + B dx dy + C dy^2      (A, B, C carry the conic and log2 e)
     alpha = min(0.99, 2^e) where e >= log2(1/255), else 0;  rest = T - alpha T;  stop = rest <= 1e-4
@@ -21,15 +21,13 @@ from typing import NamedTuple
 import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
+from genmojo_core.kernels.lane_bits import any_lane, bits, lanes_with_bit, store_bits, trailing_zeros
 from genmojo_core.kernels.scalars import smaller
 from genmojo_core.kernels.simd import (
     EXP2_FLOATS,
-    any_lane,
-    bits,
     broadcast8,
     exp2_8,
     fma,
-    lanes_with_bit,
     load8,
     max8,
     min8,
@@ -40,9 +38,7 @@ from genmojo_core.kernels.simd import (
     sqrt8,
     store4x2,
     store8,
-    store_bits,
     store_rows,
-    trailing_zeros,
 )  # fmt: skip
 from genmojo_core.render.cpu.bins import TILE, Bins
 from genmojo_core.render.cpu.project import GEOMETRY
@@ -161,7 +157,7 @@ def reached(scratch: np.ndarray, row: int) -> int:
 def take_chunk(
     drawing: Drawing, bins: Bins, span: tuple, corner: tuple, scratch: np.ndarray, marks: np.ndarray
 ) -> None:
-    """Copy the records of entries span[0]..span[1]-1 into the scratch, centres from the tile's corner, with their masks."""
+    """Copy the records of entries span[0]..span[1]-1 into the scratch, centres from the corner, with their masks."""
     width = GEOMETRY + drawing.slots
     for k in range(span[1] - span[0]):
         rank = bins.rank[span[0] + k]

@@ -131,13 +131,14 @@ def draw(
     cloud, features = _checked(splats)
     lens = lens_of(view, pose)
     ellipses = Ellipses(
-        np.empty((len(features), GEOMETRY), np.float32),
-        np.empty(len(features), np.float32),
-        np.empty((len(features), 4), np.int32),
+        take((len(features), GEOMETRY)),
+        take((len(features),)),
+        take((len(features), 4), np.int32),
     )
     run_ranges(lambda a, b: project_range(a, b, lens, cloud, ellipses), len(features), SPLATS_PER_JOB)
     order = depth_order(ellipses.depth, ellipses.box)
-    bins = bin_splats(lens, order, ellipses.box[order])
+    box = np.take(ellipses.box, order, axis=0, out=take((len(order), 4), np.int32), mode="clip")
+    bins = bin_splats(lens, order, box)
     drawn = Drawn(lens, cloud, bins, features.shape[1])
     for layout in layouts(features.shape[1], detached_channels):
         drawn.passes.append(_draw_pass(drawn, layout, ellipses, features))
@@ -154,11 +155,11 @@ def backward(
     count = len(drawn.cloud.means)
     jobs = -(-len(drawn.bins.order) // SPLATS_PER_JOB)
     out = Gradients(
-        np.zeros((count, 3), np.float32),
-        np.zeros((count, 4), np.float32),
-        np.zeros((count, 3), np.float32),
-        np.zeros(count, np.float32),
-        np.zeros((count, drawn.features), np.float32),
+        zeros((count, 3)),
+        zeros((count, 4)),
+        zeros((count, 3)),
+        zeros((count,)),
+        zeros((count, drawn.features)),
         np.zeros((jobs if with_pose else 0, 12)),
     )
     for index, one in enumerate(drawn.passes):
