@@ -8,7 +8,7 @@ import numpy as np
 import torch
 
 from genmojo_core.clip.cameras import View
-from genmojo_core.kernels import buffers
+from genmojo_core.kernels import buffers, threads
 from genmojo_core.optimise.joint_loss import Wanted, data_terms
 from genmojo_core.optimise.targets import FrameTargets
 from genmojo_core.render import autograd
@@ -17,7 +17,7 @@ from genmojo_core.render.ssim import ssim_map
 from genmojo_core.scene.plane_sampling import sample_planes, sample_time_planes
 from genmojo_core.scene.scene4d import Layout
 
-COUNT, WIDTH, HEIGHT, LABELS, FRAMES = 6000, 200, 136, 2, 2
+COUNT, WIDTH, HEIGHT, LABELS, FRAMES = 20_000, 200, 136, 2, 2
 LARGEST = buffers.SMALLEST  # bytes
 
 
@@ -53,10 +53,11 @@ def test_a_warm_step_allocates_no_large_arrays() -> None:
     target = FrameTargets(uniform(HEIGHT, WIDTH, 3), labels, seen, seen < 0, 2 + seen, seen, uniform(HEIGHT, WIDTH, 2),
                           seen, True)  # fmt: skip
     field = tuple(part.requires_grad_() for part in field[:2]) + field[2:]
+    threads.set_threads(1)  # a helper that starts late would make its own scratch only then
     for _ in range(3):
         work(leaves, field, target)
     known = {id(array) for array in buffers._kept}
-    tracemalloc.start(12)
+    tracemalloc.start()
     try:
         before = tracemalloc.get_traced_memory()[0]
         tracemalloc.reset_peak()
@@ -64,5 +65,6 @@ def test_a_warm_step_allocates_no_large_arrays() -> None:
         peak = tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()
+        threads.set_threads(0)
     assert {id(array) for array in buffers._kept} == known
-    assert peak - before < 6 * LARGEST
+    assert peak - before < 3 * LARGEST  # small ones; any array of a number per splat or pixel would go beyond
