@@ -51,7 +51,7 @@ def depth_order(depth: np.ndarray, box: np.ndarray) -> np.ndarray:
 
 
 @inlined
-def digit(key: int, place: int) -> int:
+def digit(key: np.uint32, place: int) -> np.int64:
     """One digit of a key."""
     return (np.int64(key) >> (place * RADIX_BITS)) & ((1 << RADIX_BITS) - 1)
 
