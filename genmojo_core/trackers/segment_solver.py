@@ -38,6 +38,7 @@ def solve_points(
     fixed: np.ndarray,  # (n, T) bool, where a person is sure
     first: int,
     end: int,
+    slid: np.ndarray,  # (n, T, 2) held px, of `slide.slides`
 ) -> np.ndarray:  # (n, T, 2) held px
     """Places of points of one object with frames first..end-1 solved; frames outside, and fixed ones, hold still."""
     out = np.array(xy, np.float64)
@@ -50,6 +51,7 @@ def solve_points(
         s, t = np.array([f[0] for f in found]), np.array([f[1] for f in found])
         linear = np.stack([motion.linear(int(a), int(b)) for a, b in zip(s, t, strict=True)])
         place, own, trust = (np.stack([f[2][part] for f in found]) for part in range(3))
+        place += np.swapaxes(slid[:, t] - slid[:, s], 0, 1)
         weight = np.maximum(own, HIDDEN * trust) / np.sqrt(np.abs(s - t))[:, None]
         for n in range(len(out)):
             unknown = np.arange(first, end)[~fixed[n, first:end]]

@@ -18,12 +18,13 @@ from genmojo_core.errors import GenmojoError
 from genmojo_core.trackers.evidence import evidence_of
 from genmojo_core.trackers.object_motion import ObjectMotion
 from genmojo_core.trackers.segment_solver import SPANS, solve_points
+from genmojo_core.trackers.slide import slides
 from genmojo_core.trackers.stabilise import Layer, flat_shade
 from genmojo_core.trackers.visibility import states_in, states_of
 from genmojo_core.tracks import keys
 from genmojo_core.tracks.annotation import CONFIRMED, KEY, TRACKER, Annotation, Cells
 from genmojo_core.tracks.edits import Edit, join
-from genmojo_core.tracks.model import NONE
+from genmojo_core.tracks.model import NONE, VISIBLE
 from genmojo_core.tracks.suspicion import Evidence
 
 SHORT_SIDE = 540  # held px from which more only costs time
@@ -106,6 +107,7 @@ class TrackSolver:
         xy = np.stack([c.xy for c in request.cells]).astype(np.float64) * self.scale
         fixed = np.stack([(c.flags & (KEY | CONFIRMED)) > 0 for c in request.cells])
         known = np.stack([c.state != NONE for c in request.cells])
+        seen = np.stack([c.state == VISIBLE for c in request.cells])
         rows, first, end = list(range(len(xy))), 0, len(self._clip)
         if request.key is None:
             xy = _chained(motion, xy, known, fixed, progress, cancelled)
@@ -114,7 +116,10 @@ class TrackSolver:
             relinked = self._relink(motion, xy, fixed, t)
             first, end = (max(t - max(SPANS), 0), end) if relinked else _segments(request.cells[row], t)
             rows = rows if relinked else [row]
-        xy[rows] = solve_points(motion, xy[rows], fixed[rows], first, end)
+        slid = slides(motion, xy, fixed & seen)
+        if request.key is not None and slid.any():
+            rows, first, end = list(range(len(xy))), max(t - max(SPANS), 0), len(self._clip)
+        xy[rows] = solve_points(motion, xy[rows], fixed[rows], first, end, slid[rows])
         return SolveAnswer(request, self._cells(motion, request, xy, fixed, (rows, first, end)))
 
     def follow(self, request: SolveRequest, t: int) -> SolveAnswer:

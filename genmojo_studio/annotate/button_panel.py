@@ -202,7 +202,8 @@ def grid_of(pairs: list[tuple[str, QWidget]], parent: QWidget | None = None) -> 
         label = QLabel(title)
         label.setProperty("role", "dim")
         label.setBuddy(widget)
-        grid.addWidget(label, row, 0)
+        top = Qt.AlignmentFlag.AlignTop if isinstance(widget, QLabel) else Qt.AlignmentFlag.AlignVCenter
+        grid.addWidget(label, row, 0, top)
         grid.addWidget(widget, row, 1)
     grid.setColumnStretch(1, 1)
     return inside

@@ -1,11 +1,21 @@
-"""The video play panel: transport, frame and time, speed; below it the dope sheet or the graphs."""
+"""The video play panel: one row with transport, frame and time, speed; below it the dope sheet or the graphs."""
 
 from __future__ import annotations
 
 import time
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSizePolicy, QTabWidget, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QLabel,
+    QSizePolicy,
+    QStackedWidget,
+    QTabBar,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE
 from genmojo_studio.actions import ActionTable
@@ -89,15 +99,20 @@ class PlayPanel(QWidget):
         self.player = Player(session, self)
         self.sheet, self.graphs = DopeSheet(session), Graphs(session)
         self.brush = QComboBox()
-        self.tabs = QTabWidget()
-        self.tabs.addTab(self.sheet, tr("Dope sheet"))
-        self.tabs.addTab(self.graphs, tr("Graphs"))
+        self.tabs, self.stack = QTabBar(), QStackedWidget()
+        for title, widget in ((tr("Dope sheet"), self.sheet), (tr("Graphs"), self.graphs)):
+            self.tabs.addTab(title)
+            self.stack.addWidget(widget)
         self.tabs.setDocumentMode(True)
+        self.tabs.setDrawBase(False)
+        self.tabs.setExpanding(False)
+        self.tabs.setAccessibleName(tr("Dope sheet or graphs"))
+        self.tabs.currentChanged.connect(self.stack.setCurrentIndex)
         column = QVBoxLayout(self)
         column.setContentsMargins(4, 2, 4, 2)
         column.setSpacing(2)
         column.addLayout(self._transport())
-        column.addWidget(self.tabs, 1)
+        column.addWidget(self.stack, 1)
         session.frame_changed.connect(self._show_frame)
         self.player.toggled.connect(self._show_playing)
         session.state.subscribe(self._dress, "theme")
@@ -111,6 +126,8 @@ class PlayPanel(QWidget):
     def _transport(self) -> QHBoxLayout:
         row = QHBoxLayout()
         row.setSpacing(3)
+        row.addWidget(self.tabs)
+        row.addSpacing(8)
         self.buttons: dict[str, QToolButton] = {}
         for name, _ in _TRANSPORT:
             action = self._actions[f"annotate.{name}"]

@@ -57,8 +57,9 @@ class Strip(QWidget):
         painter.end()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """No higher than its patches are wide."""
-        self.setMaximumHeight(int(min(max(self.width() / (2 * REACH + 1), 48), 92)))
+        """No higher than its patches are wide, and lower in a low window: there the frame comes first."""
+        most = min(self.width() / (2 * REACH + 1), self.window().height() / 11)
+        self.setMaximumHeight(int(min(max(most, 48), 92)))
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Go to the frame clicked."""

@@ -48,6 +48,7 @@ from genmojo_studio.translate import tr
 _DOCKS = (("buttons", "Buttons", Qt.DockWidgetArea.LeftDockWidgetArea),
           ("information", "Information", Qt.DockWidgetArea.RightDockWidgetArea),
           ("play", "Video play", Qt.DockWidgetArea.BottomDockWidgetArea))  # fmt: skip
+_LOW = 850  # pixels of height
 
 
 class AnnotateWorkspace(QMainWindow):
@@ -227,7 +228,15 @@ class AnnotateWorkspace(QMainWindow):
         wide, high = max(self.width(), 1000), max(self.height(), 600)
         sizes = {"buttons": 178, "information": int(min(max(0.24 * wide, 310), 430))}
         self.resizeDocks([self.docks[n] for n in sizes], list(sizes.values()), Qt.Orientation.Horizontal)
-        self.resizeDocks([self.docks["play"]], [int(0.3 * high)], Qt.Orientation.Vertical)
+        share = 0.3 if high > _LOW else 0.24  # on small screens the frame comes first
+        self.resizeDocks([self.docks["play"]], [int(share * high)], Qt.Orientation.Vertical)
+
+    def toggle_panels(self) -> None:
+        """Only the frame, or everything again."""
+        shown = any(dock.isVisible() for dock in self.docks.values())
+        for dock in self.docks.values():
+            dock.setVisible(not shown)
+        self.canvas.setFocus()
 
     def use_tool(self, tool: Tool | None) -> None:
         """Draw with a tool on the canvas, or go back to points."""

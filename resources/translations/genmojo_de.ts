@@ -548,12 +548,8 @@
       <translation>Es sind schon {n} Objekte; verwerfen Sie erst eines.</translation>
     </message>
     <message>
-      <source>Dope sheet</source>
-      <translation>Zeitübersicht</translation>
-    </message>
-    <message>
-      <source>Graphs</source>
-      <translation>Kurven</translation>
+      <source>Dope sheet or graphs</source>
+      <translation>Zeitübersicht oder Kurven</translation>
     </message>
     <message>
       <source>State that a drag paints</source>
@@ -574,6 +570,14 @@
     <message>
       <source>Speed</source>
       <translation>Tempo</translation>
+    </message>
+    <message>
+      <source>Dope sheet</source>
+      <translation>Zeitübersicht</translation>
+    </message>
+    <message>
+      <source>Graphs</source>
+      <translation>Kurven</translation>
     </message>
     <message>
       <source>frame {n} of {last}   {s:.2f} s</source>
@@ -3452,6 +3456,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Patches of the point in the frames around.</source>
       <translation>Ausschnitte um den Punkt in den Bildern ringsum.</translation>
+    </message>
+    <message>
+      <source>Panels beside the frame</source>
+      <translation>Bereiche neben dem Bild</translation>
+    </message>
+    <message>
+      <source>Only the frame, or every panel.</source>
+      <translation>Nur das Bild oder alle Bereiche.</translation>
     </message>
     <message>
       <source>Larger reticle</source>

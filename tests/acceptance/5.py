@@ -107,7 +107,7 @@ def _found(bench: Bench, name: str) -> float:
 
 def frame_step(bench: Bench) -> list[Check]:
     """From the key to a painted frame at 1080p."""
-    said = bench.python("tests/benchmarks/frame_step.py")
+    said = bench.python("tests/benchmarks/frame_step.py", XDG_CONFIG_HOME=str(bench.work / "home"))
     wall = dict(re.findall(r"^(.*?) +wall p50 +[\d.]+ p95 +([\d.]+) ms", said, re.M))
     ratio = float(re.findall(r"ratio of medians \(CPU\): ([\d.]+)", said)[-1])
     return [
@@ -115,6 +115,13 @@ def frame_step(bench: Bench) -> list[Check]:
         Check("uncached p95 ms", float(wall["25 tracks, uncached"]), 33, at_most=True),
         Check("5,000 tracks x 10,000 frames, times", ratio, 1.10, at_most=True),
     ]
+
+
+def acknowledgement(bench: Bench) -> list[Check]:
+    """From an edit in the window to the word that it is on the disk."""
+    said = bench.python("tests/benchmarks/acknowledgement.py", XDG_CONFIG_HOME=str(bench.work / "home"))
+    made, told, late = (float(v) for v in re.findall(r"(\d+) edits, (\d+) acknowledged: .* p99 ([\d.]+)", said)[-1])
+    return [Check("p99 ms", late, 200, at_most=True), Check("edits never acknowledged", made - told, 0, at_most=True)]
 
 
 def tests(bench: Bench, expected: int, *what: str) -> list[Check]:
@@ -141,6 +148,7 @@ ROWS: Rows = {
     "gold-fish": ("gold-fish, widgets", walk),
     "queue": ("injected errors", suspicion),
     "frame-step": ("frame steps", frame_step),
+    "acknowledgement": ("an edit is on the disk", acknowledgement),
     "seeks": ("10,000 random seeks, ten files", lambda b: tests(b, 10, "tests/clip/test_random_frames.py", "-k",
                                                                 "ten_thousand")),
     "kills": ("200 kill -9", lambda b: tests(b, 1, "tests/store/test_project_crash.py", "-k", "two_hundred")),
