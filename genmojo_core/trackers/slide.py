@@ -28,7 +28,7 @@ def slides(
     xy: np.ndarray,  # (n, T, 2) held px
     sure: np.ndarray,  # (n, T) bool
 ) -> np.ndarray:  # (n, T, 2) held px
-    """What to add to links: one from frame s to t misses point n by slides[n, t] - slides[n, s]; 0 where none slides."""
+    """What to add to links: one from frame s to t misses point n by slides[n, t] - slides[n, s]; 0 where all hold."""
     out = np.zeros_like(xy)
     points, frames, rates = _measured(motion, xy, sure)
     if not len(points):

@@ -1,6 +1,6 @@
 """Screenshots of the annotator's four steps, for looking at: sizes, themes and scales.
 
-    QT_SCALE_FACTOR=2 python tests/acceptance/annotator_screens.py CLIP OUT 1366x768
+    QT_SCALE_FACTOR=2 python tests/acceptance/annotator_screens.py CLIP OUT 1366x768 1920x1080
 
 Writes OUT/<step>-<size>-<theme>-<scale>.png. Points lie on corners, tracks stay where they were placed.
 """
@@ -23,11 +23,11 @@ from genmojo_studio.annotate.steps import STEPS  # noqa: E402
 from genmojo_studio.settings import Settings  # noqa: E402
 
 
-def main(clip: Path, out: Path, size: tuple[int, int]) -> None:
-    """Open the clip in the app's window, do every step's work, grab it in both themes."""
+def main(clip: Path, out: Path, sizes: list[tuple[int, int]]) -> None:
+    """Open the clip in the app's window, do every step's work, grab it in all sizes and both themes."""
     application = app.make_application()
     window = app.make_window(application, Settings())
-    window.resize(*size)
+    window.resize(*sizes[0])
     window.show()
     window.show_workspace("annotate")
     annotate = window.workspaces["annotate"]
@@ -45,15 +45,18 @@ def main(clip: Path, out: Path, size: tuple[int, int]) -> None:
         for name in ("dark", "light"):
             window.state.set(theme=name)
             theme.apply(application, name)
-            QTest.qWait(400)
-            window.resize(*size)
-            scale = os.environ.get("QT_SCALE_FACTOR", "1")
-            window.grab().save(str(out / f"{number + 1}-{step.name}-{size[0]}x{size[1]}-{name}-{scale}.png"))
-    sys.stdout.write(f"wanted {size}, got {window.width()}x{window.height()}\n")
+            for size in sizes:
+                window.resize(*size)
+                annotate.restore_layout()  # as in a window of that size
+                QTest.qWait(400)
+                scale = os.environ.get("QT_SCALE_FACTOR", "1")
+                window.grab().save(str(out / f"{number + 1}-{step.name}-{size[0]}x{size[1]}-{name}-{scale}.png"))
+                if (window.width(), window.height()) != size:
+                    sys.stdout.write(f"wanted {size}, got {window.width()}x{window.height()}\n")
     window.close()
 
 
 if __name__ == "__main__":
     Path(sys.argv[2]).mkdir(parents=True, exist_ok=True)
-    width, _, height = sys.argv[3].partition("x")
-    main(Path(sys.argv[1]), Path(sys.argv[2]), (int(width), int(height)))
+    pairs = [size.partition("x") for size in sys.argv[3:]]
+    main(Path(sys.argv[1]), Path(sys.argv[2]), [(int(width), int(height)) for width, _, height in pairs])
