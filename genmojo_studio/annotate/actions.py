@@ -108,7 +108,6 @@ _VIEW = (
     _action("view.masks", "Masks: off, outline, filled", "M", "Changes how masks are drawn."),
     _action("view.trails", "Trails: off, short, long", "G", "Changes the length of the trails."),
     _action("view.strip", "Stabilised strip", "P", "Patches of the point in the frames around.", checkable=True),
-    _action("view.panels", "Panels beside the frame", "Ctrl+Space", "Only the frame, or every panel.", checkable=True),
     _action("view.reticle_larger", "Larger reticle", "Alt+=", "The cross at the mouse."),
     _action("view.reticle_smaller", "Smaller reticle", "Alt+-", "The cross at the mouse."),
 )

@@ -148,7 +148,6 @@ class Hands:
             "view.masks": self._masks,
             "view.trails": self._trails,
             "view.strip": self._strip,
-            "view.panels": w.toggle_panels,
             "view.reticle_larger": lambda: w.canvas.set_reticle(w.canvas.reticle + 4),
             "view.reticle_smaller": lambda: w.canvas.set_reticle(w.canvas.reticle - 4),
             "edit.undo": s.undo,
@@ -192,7 +191,6 @@ class Hands:
             "view.follow": lambda: w.screen_link.follow,
             "view.loupe_stay": lambda: w.canvas.loupe.on,
             "view.strip": lambda: w.strip.isVisible(),
-            "view.panels": lambda: any(dock.isVisible() for dock in w.docks.values()),
             "track.lock": lambda: s.track is not None and s.annotation.tracks[s.track].locked,
         }
         return switches.get(name)

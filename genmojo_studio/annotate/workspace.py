@@ -211,11 +211,11 @@ class AnnotateWorkspace(QMainWindow):
 
     def save_layout(self) -> None:
         """Remember where the panels are in this step."""
-        self.settings.put_layout(f"annotate-{STEPS[self.step].name}", self.panels.layout())
+        self.settings.put_layout(self._layout_name(), self.panels.layout())
 
     def restore_layout(self) -> None:
         """Put the panels where they were in this step, or where they belong."""
-        stored = self.settings.layout(f"annotate-{STEPS[self.step].name}")
+        stored = self.settings.layout(self._layout_name())
         if stored is None or not self.restoreState(stored):
             for name, _title, area in _DOCKS:
                 self.docks[name].setFloating(False)
@@ -224,19 +224,16 @@ class AnnotateWorkspace(QMainWindow):
             QTimer.singleShot(0, self._size_docks)  # sizes count only after the docks have been laid out
         self.panels.arranged()
 
+    def _layout_name(self) -> str:
+        """Layouts are kept per step, those of low windows by themselves: sizes of one make no sense in the other."""
+        return f"annotate-{STEPS[self.step].name}{'-low' if self.height() <= _LOW else ''}"
+
     def _size_docks(self) -> None:
         wide, high = max(self.width(), 1000), max(self.height(), 600)
-        sizes = {"buttons": 178, "information": int(min(max(0.24 * wide, 310), 430))}
+        sizes = {"buttons": 194, "information": int(min(max(0.24 * wide, 310), 430))}
         self.resizeDocks([self.docks[n] for n in sizes], list(sizes.values()), Qt.Orientation.Horizontal)
         share = 0.3 if high > _LOW else 0.24  # on small screens the frame comes first
         self.resizeDocks([self.docks["play"]], [int(share * high)], Qt.Orientation.Vertical)
-
-    def toggle_panels(self) -> None:
-        """Only the frame, or everything again."""
-        shown = any(dock.isVisible() for dock in self.docks.values())
-        for dock in self.docks.values():
-            dock.setVisible(not shown)
-        self.canvas.setFocus()
 
     def use_tool(self, tool: Tool | None) -> None:
         """Draw with a tool on the canvas, or go back to points."""

@@ -3458,14 +3458,6 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Ausschnitte um den Punkt in den Bildern ringsum.</translation>
     </message>
     <message>
-      <source>Panels beside the frame</source>
-      <translation>Bereiche neben dem Bild</translation>
-    </message>
-    <message>
-      <source>Only the frame, or every panel.</source>
-      <translation>Nur das Bild oder alle Bereiche.</translation>
-    </message>
-    <message>
       <source>Larger reticle</source>
       <translation>Größeres Fadenkreuz</translation>
     </message>

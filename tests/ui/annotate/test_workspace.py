@@ -317,12 +317,3 @@ def test_a_step_without_points_is_not_done_and_states_are_readable_in_both_theme
         workspace.state.set(theme=name)
         shade = workspace.review.tree.palette().text().color()
         qtbot.waitUntil(lambda shade=shade: item.foreground(1).color() == shade, timeout=60_000)
-
-
-def test_the_panels_make_room_for_the_frame_and_come_back(workspace):
-    before = workspace.canvas.height()
-    assert workspace.table.trigger("annotate.view.panels")
-    QTest.qWait(20)
-    assert not any(dock.isVisible() for dock in workspace.docks.values()) and workspace.canvas.height() > before
-    assert workspace.table.trigger("annotate.view.panels")
-    assert all(dock.isVisible() for dock in workspace.docks.values())
