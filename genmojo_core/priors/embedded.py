@@ -70,7 +70,10 @@ class EmbeddedPrior:
     def judge(
         self, embedded: Tensor, condition: Condition, views: ViewOffsets, level: float, generator: torch.Generator
     ) -> Judgement:
-        """Mean view from the volume, clean picture from the denoiser, confidence from both angle and coverage."""
+        """Mean view from the volume, clean picture from the denoiser, confidence from both angle and coverage.
+
+        The mean view is made solid: half covered pixels are a doubt of the volume's, no glass of the object's.
+        """
         drawn = self._draw(condition, views, self.resolution).to(embedded.dtype)
         mean = drawn[:, :4].clamp(0, 1)
         sigma = torch.full((len(embedded),), sigma_of(level), dtype=embedded.dtype)
@@ -78,7 +81,7 @@ class EmbeddedPrior:
         noisy = embedded + sigma[:, None, None, None] * noise
         clean = self.denoiser(noisy.float(), drawn.float(), sigma.float()).to(embedded.dtype)
         weight = sigma / (1.0 + sigma * sigma)
-        return Judgement(clean, weight, mean, _confidence(mean, views))
+        return Judgement(clean, weight, _solid(mean), _confidence(mean, views))
 
     @torch.no_grad()
     def predict(self, condition: Condition, views: ViewOffsets) -> Tensor:
@@ -117,6 +120,12 @@ def view_cameras(reference: Reference, views: ViewOffsets, distance: float) -> n
         start[2, 3] = distance + float(radius)
         poses.append(orbit_camera(start, np.zeros(3), np.array(reference.up), float(elevation), float(azimuth)))
     return np.stack(poses)
+
+
+def _solid(mean: Tensor) -> Tensor:
+    """(B, 4, h, w) premultiplied: fully covered where coverage is at least half, in the same colour, else empty."""
+    coverage = mean[:, 3:4]
+    return torch.where(coverage >= 0.5, mean / coverage.clamp(min=0.5), 0.0)
 
 
 def _confidence(mean: Tensor, views: ViewOffsets) -> Tensor:

@@ -145,8 +145,10 @@ def test_confidence_is_nothing_near_the_reference_and_between_inside_and_outside
     views = offsets((0, 10), (0, 170))
     judged = shipped.judge(torch.rand(2, 4, 32, 32), condition, views, 0.5, torch.Generator().manual_seed(0))
     assert not judged.confidence[0].any() and judged.confidence[1].max() > 0.5
-    unsure = (judged.mean[1, 3] - 0.5).abs() < 0.05
+    coverage = shipped.predict(condition, views)[1, 3]
+    unsure = (coverage - 0.5).abs() < 0.05
     assert not unsure.any() or judged.confidence[1, 0][unsure].max() < 0.05
+    assert torch.equal(judged.mean[1, 3], (coverage >= 0.5).float()), "objects are solid"
 
 
 def test_points_of_the_surface_lie_on_the_object(shipped):
