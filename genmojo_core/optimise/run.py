@@ -55,6 +55,7 @@ from genmojo_core.optimise.schedule import (
     set_rates,
     stages,
     start_rate,
+    wear_factor,
 )
 from genmojo_core.optimise.separate import SeparateObjective
 from genmojo_core.optimise.targets import Targets
@@ -346,7 +347,8 @@ class Run:
         share = share if len(self.clip) > 1 else 1.0
         candidates = frames_in_play(len(self.clip), self.reference, share, self.held)
         frames = draw_frames(candidates, self.config.frames_per_step, self.config.seed, self.progress.step)
-        set_rates(self.optimiser, self.progress.fraction(self.clock), self.guard.rate)
+        wear = wear_factor(self.progress.step, len(self.clip), self.config.frames_per_step)
+        set_rates(self.optimiser, self.progress.fraction(self.clock), self.guard.rate * wear)
         self.optimiser.zero_grad(set_to_none=True)
         outcome = self.objective.evaluate(frames, stage.deform, self.generator)
         if self.unseen is not None:

@@ -9,6 +9,7 @@ import torch
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.events import Checkpointed, Event, Failed, Finished, Preview, StageStarted, Step
+from genmojo_core.optimise.schedule import wear_factor
 from tests.optimise.small_runs import small_clip, small_run
 
 BENDING = {"non_rigid_motion": True}
@@ -205,3 +206,9 @@ def test_an_object_that_cannot_be_followed_does_not_spoil_the_others(clip: Clip,
     assert isinstance(events[-1], Finished)
     assert [e.code for e in events if isinstance(e, Warned)] == ["motion_not_found"]
     assert np.isfinite(run.bake().frame(2).means).all()
+
+
+def test_learning_rates_fall_once_every_frame_was_seen_often() -> None:
+    assert wear_factor(0, 24, 3) == wear_factor(400, 24, 3) == 1.0
+    assert wear_factor(20_000, 6, 1) == pytest.approx(300 / 20_000)
+    assert wear_factor(10_000, 1, 1) == wear_factor(10_000, 3, 3) == 1.0  # every step sees every frame
