@@ -206,7 +206,8 @@ class Hands:
             self.s.select_track(track)
             cpu, began, before = time.process_time(), time.monotonic(), self.solved
             self.click_at(*self.aim(row, t))
-            self.wait(lambda: self.solved > before, 600)
+            busy = self.w.work.tracker.tasks
+            self.wait(lambda: self.solved > before or not busy.busy, 600)  # a click may also only choose a point
             self.seconds.append(time.process_time() - cpu)
             self.waits.append(time.monotonic() - began)
             self.idle()

@@ -47,7 +47,8 @@ def main(clip: Path, out: Path, sizes: list[tuple[int, int]]) -> None:
             theme.apply(application, name)
             for size in sizes:
                 window.resize(*size)
-                annotate.restore_layout()  # as in a window of that size
+                window.settings.forget_layouts()
+                annotate.restore_layout()  # as delivered for that size
                 QTest.qWait(400)
                 scale = os.environ.get("QT_SCALE_FACTOR", "1")
                 window.grab().save(str(out / f"{number + 1}-{step.name}-{size[0]}x{size[1]}-{name}-{scale}.png"))
