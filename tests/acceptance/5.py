@@ -24,10 +24,12 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 import injected_errors  # noqa: E402
 import simulated_annotator  # noqa: E402
 
+from genmojo_core.store.npz import write_tracks  # noqa: E402
 from genmojo_core.trackers.evidence import scene_of  # noqa: E402
 from genmojo_core.trackers.seeding import SceneSeeder  # noqa: E402
 from genmojo_core.trackers.solver import SolveRequest, TrackSolver  # noqa: E402
 from genmojo_core.tracks.suspicion import assess, queue  # noqa: E402
+from genmojo_studio.annotate.scene_job import said_by_people  # noqa: E402
 
 CLIPS, SEEDS = ("blender-cross", "blender-trio"), ("optical", "scene")
 
@@ -124,6 +126,27 @@ def acknowledgement(bench: Bench) -> list[Check]:
     return [Check("p99 ms", late, 200, at_most=True), Check("edits never acknowledged", made - told, 0, at_most=True)]
 
 
+def loop(bench: Bench, name: str = "blender-trio") -> list[Check]:
+    """What a person said goes into the optimiser (as "Solve from scene" hands it over): the scene's tracks profit."""
+    source = bench.data / name
+    person = simulated_annotator.Person(simulated_annotator.full_hd(source), simulated_annotator.truth_of(source))
+    person.run()
+    said = said_by_people(person.annotation)
+    if said is None:
+        raise RuntimeError("the simulated annotator placed nothing")
+    given = bench.work / f"{name}.said.npz"
+    write_tracks(said, given)
+    found = {}
+    for title, more in (("without", []), ("with", ["--tracks", str(given)])):
+        path = bench.work / f"loop-{title}.h5"
+        command = [str(source), "-o", str(path), "--preset", "draft", "--ignore", "tracks", *more]
+        bench.python("-m", "genmojo_core.cli.main", "optimize", *command)
+        scores = bench.python("-m", "genmojo_core.cli.main", "evaluate", str(path), str(source), "--json")
+        found[title] = json.loads(scores)
+    checks = [Check(f"{key} {title}", found[title][key]) for key in ("ate", "oa") for title in found]
+    return [*checks, Check("ate with / without", found["with"]["ate"] / found["without"]["ate"], 1.0, at_most=True)]
+
+
 def tests(bench: Bench, expected: int, *what: str) -> list[Check]:
     """Tests that check a promise at its full size."""
     said = bench.python("-m", "pytest", "-q", *what, ends=(0, 1))
@@ -149,12 +172,13 @@ ROWS: Rows = {
     "queue": ("injected errors", suspicion),
     "frame-step": ("frame steps", frame_step),
     "acknowledgement": ("an edit is on the disk", acknowledgement),
+    "loop": ("blender-trio, draft, with and without what a person said", loop),
     "seeks": ("10,000 random seeks, ten files", lambda b: tests(b, 10, "tests/clip/test_random_frames.py", "-k",
                                                                 "ten_thousand")),
     "kills": ("200 kill -9", lambda b: tests(b, 1, "tests/store/test_project_crash.py", "-k", "two_hundred")),
     "histories": ("50 x 1,000 edits undone and redone", lambda b: tests(b, 50, "tests/store/test_project.py", "-m",
                                                                         "slow")),
-    "seed-dialog": ("CoTracker stand-in, Solve from scene", lambda b: tests(b, 3,
+    "seed-dialog": ("CoTracker stand-in, Solve from scene", lambda b: tests(b, 4,
                                                                             "tests/ui/annotate/test_seed_dialog.py")),
 }  # fmt: skip
 
