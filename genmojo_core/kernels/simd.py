@@ -350,13 +350,13 @@ def sum_rows(typingctx: Any, array: types.Type, index: types.Type) -> Any:
         for i in range(LANES):
             at = builder.add(index, ir.Constant(index.type, LANES * i))
             rows.append(builder.load(pointer(context, builder, signature.args[0], array, at, LANES), align=4))
-        # Each round pairs vectors and adds their even and odd lanes: 8 rows -> 4 -> 2 -> 1, lanes in row order.
-        even, odd = (ir.Constant(I8, [2 * i + k for i in range(LANES)]) for k in (0, 1))
-        while len(rows) > 1:
-            rows = [
-                builder.fadd(builder.shuffle_vector(a, b, even), builder.shuffle_vector(a, b, odd))
-                for a, b in zip(rows[::2], rows[1::2], strict=True)
-            ]
+        # Each round pairs vectors: 8 rows -> 4 -> 2 -> 1. Twice the even and odd lanes of each half are added, which no
+        # processor needs to carry across halves, and at last the halves.
+        across = [0, 2, 8, 10, 4, 6, 12, 14], [1, 3, 9, 11, 5, 7, 13, 15]
+        for first, second in (across, across, ([0, 1, 2, 3, 8, 9, 10, 11], [4, 5, 6, 7, 12, 13, 14, 15])):
+            lanes = ir.Constant(I8, first), ir.Constant(I8, second)
+            pairs = zip(rows[::2], rows[1::2], strict=True)
+            rows = [builder.fadd(*(builder.shuffle_vector(a, b, one) for one in lanes)) for a, b in pairs]
         return rows[0]
 
     return Float8(array, types.intp), codegen

@@ -29,7 +29,7 @@ from genmojo_core.render.cpu.project_backward import MOMENTS, SCRATCH, Gradients
 from genmojo_core.render.rasterizer import Rendering, Splats
 
 MAX_SLOTS = 16  # channels of one pass, depth included
-SPLATS_PER_JOB = 2048
+SPLATS_PER_JOB, SPLAT_JOBS = 2048, 8
 ROWS_PER_JOB = 64
 
 
@@ -135,7 +135,7 @@ def draw(
         take((len(features),)),
         take((len(features), 4), np.int32),
     )
-    run_ranges(lambda a, b: project_range(a, b, lens, cloud, ellipses), len(features), SPLATS_PER_JOB)
+    run_ranges(lambda a, b: project_range(a, b, lens, cloud, ellipses), len(features), _splat_chunk(len(features)))
     order = depth_order(ellipses.depth, ellipses.box)
     box = np.take(ellipses.box, order, axis=0, out=take((len(order), 4), np.int32), mode="clip")
     bins = bin_splats(lens, order, box)
@@ -153,7 +153,7 @@ def backward(
     The pose's gradient is 0 unless `with_pose`.
     """
     count = len(drawn.cloud.means)
-    jobs = -(-len(drawn.bins.order) // SPLATS_PER_JOB)
+    jobs = -(-len(drawn.bins.order) // _splat_chunk(len(drawn.bins.order)))
     out = Gradients(
         zeros((count, 3)),
         zeros((count, 4)),
@@ -191,7 +191,7 @@ def _draw_pass(drawn: Drawn, layout: Layout, ellipses: Ellipses, features: np.nd
     records = take((count * (GEOMETRY + slots) + LANES,))  # the tile kernels copy eight at a time, over the end
     table = records[:-LANES].reshape(count, GEOMETRY + slots)
     source = (features, layout.feature_of_slot())
-    run_ranges(lambda a, b: gather(a, b, bins.order, ellipses, source, table), count, SPLATS_PER_JOB)
+    run_ranges(lambda a, b: gather(a, b, bins.order, ellipses, source, table), count, _splat_chunk(count))
     planes = take((1 + slots, bins.tiles_y * TILE, bins.tiles_x * TILE))
     tiles = bins.tiles_x * bins.tiles_y
     hits = zeros((len(bins.rank),), np.uint32)
@@ -216,13 +216,14 @@ def _add_gradients(
     floats = slope_floats(layout.slots)
     run_ranges(lambda a, b: slope_tiles(a, b, one.drawing, bins, slopes, scratch(floats)), tiles, _tile_chunk(bins))
     ranks = len(bins.order)
+    chunk = _splat_chunk(ranks)
     sums, scene = Sums(slopes.rows, row, one.drawing.hits, layout.feature_of_slot()), (drawn.lens, drawn.cloud)
 
     def job(index: int) -> None:
-        span = (index * SPLATS_PER_JOB, min((index + 1) * SPLATS_PER_JOB, ranks))
+        span = (index * chunk, min((index + 1) * chunk, ranks))
         gather_gradients(index, span, bins, scene, sums, out, scratch(SCRATCH))
 
-    run_jobs(job, -(-ranks // SPLATS_PER_JOB))
+    run_jobs(job, -(-ranks // chunk))
 
 
 def _fill(
@@ -253,6 +254,11 @@ def room(floats: int, marks: int) -> tuple[np.ndarray, np.ndarray]:
     """The calling thread's scratch for a tile kernel: (floats,) float32 and (marks,) int64."""
     whole = scratch(2 * marks + floats)
     return whole[2 * marks :], whole[: 2 * marks].view(np.int64)
+
+
+def _splat_chunk(count: int) -> int:
+    """Splats per job: as many jobs as several threads can share evenly, few where there is little to do."""
+    return min(SPLATS_PER_JOB, max(SPLATS_PER_JOB // SPLAT_JOBS, -(-count // SPLAT_JOBS)))
 
 
 def _tile_chunk(bins: Bins) -> int:
