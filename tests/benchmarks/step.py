@@ -4,8 +4,9 @@
 
 The step: 8 frames of 256 x 256, 3 objects of 3,000 Gaussians and a background of 5,000; per object a K-plane field
 (64 and 128 nodes, 25 times, 32 channels each) read at 8 times with a trunk of width 64 and ten outputs; L1 + SSIM on
-the colours, L1 on depth, flow and labels; AdamW. The full step reads the field at two times per frame and adds the
-rigidity and rotation terms between them, as optimise/objective.py does. CPU seconds, medians of rounds.
+the colours, and the joint loss's own data terms (colour, coverage, labels, depth, flow), an object on an eighth of the
+picture each; AdamW. The full step reads the field at two times per frame and adds the rigidity and rotation terms
+between them, as optimise/objective.py does. CPU seconds, medians of rounds.
 """
 
 from __future__ import annotations
@@ -21,12 +22,14 @@ import torch
 from torch import Tensor, nn
 
 from genmojo_core.kernels import threads
+from genmojo_core.optimise.joint_loss import Wanted, data_terms, data_terms_torch
 from genmojo_core.optimise.objective import SAMPLED_ROWS
 from genmojo_core.optimise.regularise import nearest, rigidity
+from genmojo_core.optimise.targets import FrameTargets
 from genmojo_core.render import autograd, ssim, torch_tiles
-from genmojo_core.render.rasterizer import Splats
+from genmojo_core.render.rasterizer import Rendering, Splats
 from genmojo_core.scene import plane_sampling
-from genmojo_core.scene.scene4d import ObjectState
+from genmojo_core.scene.scene4d import Layout, ObjectState
 from tests.benchmarks.workload import FLOW, scene, view_of
 
 FRAMES, SIDE, OBJECTS, PER_OBJECT, BACKGROUND = 8, 256, 3, 3000, 5000
@@ -78,7 +81,7 @@ def parts() -> dict[str, tuple[Callable[[], None], Callable[[], None]]]:
         "field x 2": field_pair(2 * FRAMES),
         "rigidity": rigidity_pair(),
         "ssim": (lambda: colours(ssim.ssim_map), lambda: colours(ssim.ssim_map_torch)),
-        "other losses": (other_losses, other_losses),
+        "data losses": losses_pair(),
         "adamw": (lambda: adamw(fused=True), lambda: adamw(fused=False)),
     }  # type: ignore[return-value]
 
@@ -167,10 +170,25 @@ def colours(similarity: Callable) -> None:
     loss.backward()
 
 
-def other_losses() -> None:
-    """L1 of depth, flow and four labels of eight frames."""
-    prediction = torch.rand(FRAMES, SIDE, SIDE, 7, requires_grad=True)
-    (prediction - 0.5).abs().mean().backward()
+def losses_pair() -> tuple[Callable[[], None], Callable[[], None]]:
+    """The data terms of eight frames (colour, coverage, labels, depth, flow): fused kernels, and plain torch."""
+    generator = torch.Generator().manual_seed(2)
+    bands = torch.arange(SIDE) * 8 // SIDE
+    labels = torch.where(bands <= OBJECTS, bands, 0).expand(SIDE, SIDE).contiguous()
+    shown = torch.nn.functional.one_hot(labels, OBJECTS + 1)[..., 1:] * 0.9
+    seen, flow = torch.ones(SIDE, SIDE), torch.randn(SIDE, SIDE, 2, generator=generator)
+    colors = torch.rand(2, SIDE, SIDE, 3, generator=generator)
+    target = FrameTargets(colors[0], labels, seen, seen < 0, 2 + seen, seen, flow, seen, True)
+    layout, wanted = Layout(OBJECTS, flow=True), Wanted(background=True, labels=True, depth=True)
+    features = torch.cat([colors[1], shown, flow + 1], dim=-1).permute(2, 0, 1).contiguous()
+    leaves = [features.requires_grad_(), (2 * seen).requires_grad_(), (0.9 * seen).requires_grad_()]
+
+    def work(terms: Callable) -> None:
+        for _ in range(FRAMES):
+            picture = Rendering(leaves[0].permute(1, 2, 0), *leaves[1:])
+            torch.stack(list(terms(picture, layout, target, wanted).values())).sum().backward()
+
+    return lambda: work(data_terms), lambda: work(data_terms_torch)
 
 
 def adamw(*, fused: bool) -> None:
