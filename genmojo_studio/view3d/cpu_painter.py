@@ -26,6 +26,16 @@ _SHELL = 0.22  # alpha at the surface of an ellipsoid
 _DOT_PIXELS = 1.2
 
 
+def warm_up() -> None:
+    """Load the kernels, or compile them where they never ran, by drawing one Gaussian: before there is a scene."""
+    one = np.ones(1)
+    snapshot = SceneSnapshot(0, 0, "", 0, 1, np.array([[0, 0, 1]]), np.array([[1, 0, 0, 0]]), np.full((1, 3), 0.1), one,
+                             np.ones((1, 3)), one, one)  # fmt: skip
+    painter = CpuPainter()
+    painter.upload(snapshot)
+    painter.picture(View(np.eye(4), 16.0, 16.0, 8.0, 8.0, 16, 16), Look())
+
+
 class CpuPainter:
     """Draws snapshots without OpenGL; safe to use from one thread at a time, which need not be the UI's."""
 

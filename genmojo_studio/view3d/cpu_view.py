@@ -5,13 +5,14 @@ A thread of its own draws the newest request; the window only shows finished pic
 
 from __future__ import annotations
 
+import contextlib
 import threading
 import time
 from collections.abc import Callable
 
 import numpy as np
 from PySide6.QtCore import QRectF, Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent, QColor, QImage, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtGui import QCloseEvent, QColor, QImage, QPainter, QPaintEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QWidget
 
 from genmojo_core.clip.cameras import View
@@ -19,7 +20,7 @@ from genmojo_core.errors import GenmojoError
 from genmojo_studio.background import give_way
 from genmojo_studio.translate import tr
 from genmojo_studio.view3d.colouring import colour, straight_rgba, value_bounds
-from genmojo_studio.view3d.cpu_painter import CpuPainter
+from genmojo_studio.view3d.cpu_painter import CpuPainter, warm_up
 from genmojo_studio.view3d.frames import Feeder, FrameReport, FrameRequest
 from genmojo_studio.view3d.look import BLACK, SCALAR_MODES, Mode
 from genmojo_studio.view3d.quality import FULL, Detail
@@ -85,6 +86,11 @@ class CpuView(QWidget):
             painter.drawImage(QRectF(self.rect()), self._image)
         painter.end()
 
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
+        """Somebody will want a picture: the kernels are made ready while there is no scene yet."""
+        super().showEvent(event)
+        self._drawer.begin()
+
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         """Another size needs another picture."""
         if self._newest is not None:
@@ -138,11 +144,17 @@ class Drawer:
     def ask(self, request: FrameRequest, size: tuple[int, int]) -> None:
         """Draw for a window of `size` device pixels."""
         with self._wake:
-            self._waiting, self._stopped = (request, size), False
-            if self._thread is None or not self._thread.is_alive():  # not begun, stopped, or died of a fault
+            self._waiting = (request, size)
+            self._wake.notify()
+        self.begin()
+
+    def begin(self) -> None:
+        """Start the thread unless it runs: it was not begun, was stopped, or died of a fault."""
+        with self._wake:
+            self._stopped = False
+            if self._thread is None or not self._thread.is_alive():
                 self._thread = threading.Thread(target=self._work, name="splat-painter", daemon=True)
                 self._thread.start()
-            self._wake.notify()
 
     def image(self, request: FrameRequest, view: View) -> np.ndarray:  # (H, W, 4) uint8
         """A picture at once, on the calling thread. Raises GenmojoError where it would not fit into memory."""
@@ -170,6 +182,8 @@ class Drawer:
 
     def _work(self) -> None:
         """Until stopped: draw what waits. The first picture, which may compile kernels, waits for nobody."""
+        with contextlib.suppress(GenmojoError, ImportError, MemoryError, RuntimeError):  # the first picture tells why
+            warm_up()
         while True:
             with self._wake:
                 while self._waiting is None and not self._stopped:
