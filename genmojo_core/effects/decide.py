@@ -13,6 +13,7 @@ from genmojo_core.effects.evidence import Evidence, measure
 from genmojo_core.effects.plan import Effect, EffectName, EffectPlan
 from genmojo_core.effects.shape import RIGID_MODE, RIGID_OUTLINE
 from genmojo_core.effects.sides import unseen_share
+from genmojo_core.effects.upright import RIGID_LEAN, RIGID_STRETCH
 from genmojo_core.errors import GenmojoError
 
 NAMES: tuple[str, ...] = get_args(EffectName)
@@ -160,8 +161,9 @@ def _non_rigid_motion(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule
     said = "Every object moves like a rigid body as far as flow and outlines show."
     if value >= 1:
         said = f"'{name}' bends {value:.1f} times as much as turning rigid objects seem to."
-    limits = f"{100 * RIGID_MODE:.1f} % (fourth mode of flow) and {100 * RIGID_OUTLINE:.0f} % (outline) of their size"
-    return Rule(value, "x rigid", 1.0, f"rigid objects of the shared clips stay under {limits}", said,
+    limits = (f"{100 * RIGID_MODE:.1f} % (fourth mode of flow) and {100 * RIGID_OUTLINE:.0f} % (outline) of their "
+              f"size, {100 * RIGID_STRETCH:.0f} % of height and {RIGID_LEAN:.2g} of lean")  # fmt: skip
+    return Rule(value, "x rigid", 1.0, f"rigid objects stay under {limits}", said,
                 "" if len(clip) > 1 else "a single frame has no motion")  # fmt: skip
 
 
