@@ -41,11 +41,10 @@ def surface_points(prior: EmbeddedPrior, condition: Condition) -> Points:
             continue
         rgb = np.round(np.clip(picture[..., :3] / alpha[..., None], 0, 1) * 255).astype(np.uint8)
         depth = picture[..., 4] / alpha + distance
-        points = points.joined(points_of_image(rgb, depth, mask, view, SIDE * SIDE))
-    inside = np.ones(len(points), bool)
-    for view, picture in zip(views, pictures, strict=True):
-        inside &= _looked_up(picture[..., 3], points.xyz, view) > SURE
-    return thinned(points.chosen(inside), len(points), CELL)
+        found = points_of_image(rgb, depth, mask, view, SIDE * SIDE)
+        by_view = [_looked_up(other[..., 3], found.xyz, seen) for seen, other in zip(views, pictures, strict=True)]
+        points = points.joined(found.chosen(np.min(by_view, axis=0) > SURE))
+    return thinned(points, len(points), CELL)
 
 
 def thinned(points: Points, count: int, cell: float) -> Points:
@@ -72,9 +71,9 @@ def _one_per_cell(xyz: np.ndarray, cell: float) -> np.ndarray:
 
 
 def _looked_up(coverage: np.ndarray, xyz: np.ndarray, view: View) -> np.ndarray:  # (N,)
-    """A view's coverage where points fall; 0 outside the picture."""
+    """A view's coverage where points fall, fewer than 32,767 (cv2.remap); 0 outside the picture."""
     x, y = (project(xyz, view)[0] - 0.5).astype(np.float32).T.reshape(2, 1, -1)
-    return np.asarray(cv2.remap(coverage.astype(np.float32), x, y, cv2.INTER_LINEAR))[0] if len(xyz) else np.zeros(0)
+    return np.asarray(cv2.remap(coverage.astype(np.float32), x, y, cv2.INTER_LINEAR))[0]
 
 
 def in_world(points: Points, placed: PlacedReference) -> Points:

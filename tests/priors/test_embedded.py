@@ -135,8 +135,10 @@ def test_hard_conditions_give_finite_views(shipped, case):
     judged = shipped.judge(torch.rand(1, 4, 32, 32), condition, offsets((0, 90)), 0.5, torch.Generator().manual_seed(0))
     for value in (judged.clean, judged.mean, judged.confidence):
         assert torch.isfinite(value).all()
+    points = surface_points(shipped, condition)
+    assert np.isfinite(points.xyz).all()
     if case == "empty":
-        assert not judged.mean.any() and len(surface_points(shipped, condition)) == 0
+        assert not judged.mean.any() and len(points) == 0
 
 
 def test_confidence_is_nothing_near_the_reference_and_between_inside_and_outside(shipped):
