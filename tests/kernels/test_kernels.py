@@ -98,7 +98,7 @@ def test_a_changed_instruction_is_compiled_again(tmp_path: Path) -> None:
 
 def test_emitted_code_names_no_processor() -> None:
     """Generic LLVM only, so that ARM compiles the same kernels."""
-    from genmojo_core.render.cpu import rasterize
+    from genmojo_core.render.cpu import joint_loss, rasterize
     from genmojo_core.render.cpu.backward import slope_tiles
     from genmojo_core.render.cpu.forward import draw_tiles
     from tests.render.scenes import NAMES, camera, random_splats
@@ -106,7 +106,8 @@ def test_emitted_code_names_no_processor() -> None:
     splats = random_splats(5, 3, 0)
     drawn = rasterize.draw(rasterize.Splats(*(getattr(splats, n).numpy() for n in NAMES)), camera(16, 16))
     rasterize.backward(drawn, drawn.rendering())
-    for function in (draw_tiles, slope_tiles):
+    joint_loss.warm_up()
+    for function in (draw_tiles, slope_tiles, joint_loss.compare_rows):
         fresh = numba.njit(nogil=True, error_model="numpy")(function.py_func)  # code from the cache cannot be read
         fresh.compile(function.signatures[0])
         text = fresh.inspect_llvm(function.signatures[0])
@@ -133,10 +134,12 @@ def test_where_compilation_fails_plain_torch_draws_with_one_warning(fresh_probe,
 
 
 def test_warm_up_compiles_everything(tmp_path: Path) -> None:
-    """In a fresh process: after warm_up, drawing compiles nothing more."""
+    """In a fresh process: after warm_up, drawing and comparing compile nothing more."""
     program = """
 import torch
 from genmojo_core.render import autograd, backend
+from genmojo_core.optimise.joint_loss import Wanted, data_terms
+from tests.optimise.test_joint_loss import case, slopes
 from tests.render.scenes import camera, random_splats, run, upstream
 said = []
 backend.warm_up(said.append).join()
@@ -144,6 +147,8 @@ from numba.core import event
 with event.install_recorder("numba:compile") as recorder:
     view = camera(30, 20)
     run(backend.choose("cpu"), random_splats(50, 7, 0), view, upstream(view, 7), detached_channels=2)
+    target, layout, picture = case(24, 33, 2, True, True)
+    slopes(data_terms, picture, layout, target, Wanted(True, True, True))
 print(len(recorder.buffer))
 """
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
