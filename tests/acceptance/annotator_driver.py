@@ -281,9 +281,11 @@ class Hands:
         self.wait(lambda: not tracker.tasks.busy and not tracker._look.isActive(), 600)
 
     def wait(self, until: object, seconds: float) -> None:
+        """Let the app work. `QTest.qWait` would hold the interpreter lock, and the threads waited for would starve."""
         end = time.monotonic() + seconds
         while not until() and time.monotonic() < end:
-            QTest.qWait(20)
+            QApplication.processEvents()
+            time.sleep(0.005)
         if not until():
             raise TimeoutError("the annotator waited in vain")
 
