@@ -1,5 +1,6 @@
 """Real windows: on an X server without a screen where there is no other. Settings and runs of tests lie apart."""
 
+import gc
 import os
 import shutil
 import subprocess
@@ -45,6 +46,16 @@ def pytest_sessionfinish():
     if _SERVER is not None:
         _SERVER.terminate()
         _SERVER.wait(5)
+
+
+@pytest.fixture(autouse=True)
+def _windows_die_in_their_own_thread():
+    """Closed windows are cycles; a collection that a working thread happens to start would destroy them there."""
+    gc.collect()
+    gc.disable()
+    yield
+    gc.enable()
+    gc.collect()
 
 
 @pytest.fixture(autouse=True)
