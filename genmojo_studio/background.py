@@ -11,6 +11,7 @@ import sys
 import threading
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
+from functools import cache
 from typing import Any
 
 from PySide6.QtCore import QObject, Qt, Signal
@@ -26,27 +27,71 @@ def give_way() -> None:
         os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICENESS)
 
 
-class Tasks(QObject):
-    """The tasks of one window or panel: kept while they run, dropped together when it closes.
+class _Job:
+    """One task. What it was made of is let go of on the UI thread: it may hold the last reference to a window, and a
+    Qt object that dies on another thread takes the process with it."""
+
+    def __init__(self, owner: Tasks, work: Callable[[], Any], done: Done, failed: Failed) -> None:
+        self.owner, self.work, self.done, self.failed = owner, work, done, failed
+        self.future: Future[Any] = Future()
+
+    def call(self) -> Any:
+        """On a thread: the work itself. The thread holds this job only, never what the job holds."""
+        return self.work()
+
+    def ring(self, _future: Future[Any]) -> None:
+        """On a thread, when the work has ended."""
+        _bell().ended.emit(self)
+
+    def clear(self) -> None:
+        """On the UI thread: let go of everything, the frames of an error too."""
+        error = None if self.future.cancelled() else self.future.exception()
+        if error is not None:
+            error.__traceback__ = None
+        del self.owner, self.work, self.done, self.failed, self.future
+
+
+class _Bell(QObject):
+    """Brings finished jobs to the UI thread. There is one, and it outlives every window: threads may always ring it."""
+
+    ended = Signal(object)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.ended.connect(self._deliver, Qt.ConnectionType.QueuedConnection)
+
+    def _deliver(self, job: _Job) -> None:
+        try:
+            job.owner.deliver(job)
+        finally:
+            job.clear()
+
+
+@cache
+def _bell() -> _Bell:
+    """Made by the first `Tasks`, hence on the UI thread."""
+    return _Bell()
+
+
+class Tasks:
+    """The tasks of one window or panel: kept while they run, dropped together when it closes. Made on the UI thread.
 
     Args:
-        yields: they give way to an optimiser.
+        threads: how many run at once. yields: they give way to an optimiser.
     """
 
-    _ended = Signal(object)
-
-    def __init__(self, parent: QObject | None = None, threads: int = 1, yields: bool = False) -> None:
-        super().__init__(parent)
+    def __init__(self, threads: int = 1, yields: bool = False) -> None:
+        _bell()
         manners = give_way if yields else None
         self._pool = ThreadPoolExecutor(threads, thread_name_prefix="genmojo-task", initializer=manners)
-        self._waiting: dict[Future[Any], tuple[Done, Failed]] = {}
-        self._ended.connect(self._deliver, Qt.ConnectionType.QueuedConnection)
+        self._waiting: set[_Job] = set()
 
     def run(self, work: Callable[[], Any], done: Done, failed: Failed) -> None:
         """Does `work()` on a thread, then calls `done(result)` or `failed(error)` on the UI thread."""
-        future = self._pool.submit(work)
-        self._waiting[future] = (done, failed)
-        future.add_done_callback(self._ended.emit)
+        job = _Job(self, work, done, failed)
+        self._waiting.add(job)
+        job.future = self._pool.submit(job.call)
+        job.future.add_done_callback(job.ring)
 
     @property
     def busy(self) -> bool:
@@ -55,21 +100,22 @@ class Tasks(QObject):
 
     def drop(self) -> None:
         """Nobody is told of results still to come; what has not begun never does."""
-        for future in list(self._waiting):
-            future.cancel()
+        for job in list(self._waiting):
+            job.future.cancel()
         self._waiting.clear()
 
     def close(self) -> None:
         """Drops everything and lets the threads end."""
         self.drop()
-        self._pool.shutdown(wait=False, cancel_futures=True)
+        self._pool.shutdown(wait=False)
 
-    def _deliver(self, future: Future[Any]) -> None:
-        done, failed = self._waiting.pop(future, (None, None))
-        if done is None or failed is None or future.cancelled():
+    def deliver(self, job: _Job) -> None:
+        """A job has ended: tell whoever waits for it, if anybody still does."""
+        if job not in self._waiting:
             return
-        error = future.exception()
+        self._waiting.discard(job)
+        error = job.future.exception()
         if error is None:
-            done(future.result())
+            job.done(job.future.result())
         else:
-            failed(error)
+            job.failed(error)

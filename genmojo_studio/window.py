@@ -60,7 +60,7 @@ class MainWindow(QMainWindow):
         self.state = state
         self.table = table
         self.settings = settings
-        self.tasks = Tasks(self, threads=2)
+        self.tasks = Tasks(threads=2)
         self.watchdog = Watchdog(self)
         self.workspaces: dict[str, Workspace] = {}
         self._shown_clips: dict[str, Path | None] = {}

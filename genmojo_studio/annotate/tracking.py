@@ -54,7 +54,7 @@ class Tracking(QObject):
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self.tasks = Tasks(threads=1)  # no parent: a late answer must find it
+        self.tasks = Tasks()
         self.calibration = Calibration()
         self.suspicions: dict[int, Suspicion] = {}
         self.evidence: dict[int, Evidence] = {}

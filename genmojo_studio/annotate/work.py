@@ -39,7 +39,7 @@ class Work(QObject):
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self.tasks = Tasks(threads=1)  # no parent: a late answer must find it
+        self.tasks = Tasks()
         self.tracker = tracking.Tracking(session, self)
         self.tracker.spots_ready.connect(self.spots_ready)
         self.tracker.busy_changed.connect(self.busy_changed)

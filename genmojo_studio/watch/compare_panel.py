@@ -77,7 +77,7 @@ class ComparePanel(QWidget):
     def __init__(self, state: AppState, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._state = state
-        self._tasks = Tasks(self)
+        self._tasks = Tasks()
         self._latest = Latest(self)
         self._first: Side | None = None
         self.second: Side | None = None

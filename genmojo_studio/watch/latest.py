@@ -18,7 +18,7 @@ class Latest(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._tasks = Tasks(self, yields=True)
+        self._tasks = Tasks(yields=True)
         self._waiting: Callable[[], Any] | None = None
 
     def ask(self, work: Callable[[], Any]) -> None:

@@ -32,7 +32,7 @@ class PickingPanel(QWidget):
     def __init__(self, state: AppState, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._state = state
-        self._tasks = Tasks(self)
+        self._tasks = Tasks()
         self._snapshot: SceneSnapshot | None = None
         self.trajectory: Trajectory | None = None
         self.said = line()

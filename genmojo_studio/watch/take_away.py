@@ -39,7 +39,7 @@ class TakeAway(QObject):
         self._session = session
         self._view = view
         self._window = parent
-        self._tasks = Tasks(self)
+        self._tasks = Tasks()
         self._jobs: list[ExportJob] = []
         self._editor: PathEditor | None = None
         self.last: Path | None = None

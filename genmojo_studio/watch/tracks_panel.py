@@ -46,7 +46,7 @@ class TracksPanel(QWidget):
         self.sets = TrackSets()
         self._apart: Apart | None = None
         self._scene: BakedScene | None = None
-        self._tasks = Tasks(self)
+        self._tasks = Tasks()
         self.list = QTreeWidget()
         self.list.setHeaderLabels([tr("Tracks"), tr("Origin"), tr("Points")])
         self.list.setRootIsDecorated(False)

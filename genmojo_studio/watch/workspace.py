@@ -55,7 +55,7 @@ class WatchWorkspace(QMainWindow):
         self.undo = UndoStack()
         self.tracks_shown = True
         self.appearance = Appearance(self.undo, self)
-        self.tasks = Tasks(self)
+        self.tasks = Tasks()
         self.session = Session(state, self.tasks, self)
         self.control = RunControl(self)
         self.player = Player(state, self.isVisible, self)
