@@ -15,6 +15,7 @@ from PySide6.QtWidgets import QApplication
 from genmojo_studio import notify, theme, translate
 from genmojo_studio.actions import Action, ActionTable
 from genmojo_studio.annotate import actions as annotate_actions
+from genmojo_studio.garbage import Collector
 from genmojo_studio.settings import Settings, data_folder
 from genmojo_studio.shell_actions import ACTIONS
 from genmojo_studio.state import AppState
@@ -58,6 +59,7 @@ def make_application(argv: Sequence[str] = ("genmojo-studio",)) -> QApplication:
     application.setApplicationDisplayName("GenMOJO Studio")
     application.setDesktopFileName("genmojo-studio")
     application.setWindowIcon(QIcon(str(RESOURCES / "icons" / "genmojo-studio.svg")))
+    Collector(application)
     return application
 
 

@@ -20,6 +20,8 @@ from genmojo_studio.annotate.frame_buffers import FrameBuffers
 DEFAULT_BYTES = 640 << 20
 _BEHIND = 4  # of every frames held, one is kept behind the target
 _THREADS = 2
+_PATIENCE = 5.0  # seconds that closing waits for a file being read
+_STUCK: list[FrameCache] = []
 _BEYOND = 2 * _THREADS + 2  # frames that are decoded, on show or on their way out besides those held
 
 
@@ -106,7 +108,11 @@ class FrameCache(QObject):
             self._open = False
             self._changed.notify_all()
         for thread in self._threads:
-            thread.join(5.0)
+            thread.join(_PATIENCE)
+        if any(thread.is_alive() for thread in self._threads):
+            _STUCK.append(
+                self
+            )  # a disk that does not answer: the thread must not be the last to hold this (background.py)
         self._frames.clear()
         self._masks.clear()
         self._buffers.clear()

@@ -48,20 +48,13 @@ def pytest_sessionfinish():
         _SERVER.wait(5)
 
 
-@pytest.hookimpl(trylast=True)
-def pytest_collection_modifyitems(items):
-    """The annotator's windows come last of all: one opened after them, in the same process, has crashed inside Qt."""
-    items.sort(key=lambda item: "ui/annotate/" in item.nodeid)
-
-
 @pytest.fixture(autouse=True)
 def _windows_die_in_their_own_thread():
-    """Closed windows are cycles; a collection that a working thread happens to start would destroy them there."""
-    gc.collect()
+    """As in the app (garbage.py): closed windows are cycles, collected by the thread that made them."""
     gc.disable()
     yield
-    gc.enable()
     gc.collect()
+    gc.enable()
 
 
 @pytest.fixture(autouse=True)

@@ -5,8 +5,10 @@ import threading
 import weakref
 
 import pytest
+from PySide6.QtCore import QObject
 
 from genmojo_studio.background import Tasks
+from genmojo_studio.garbage import Collector
 
 
 def test_results_and_errors_come_back_on_the_ui_thread(qapp, qtbot):
@@ -66,3 +68,20 @@ def test_what_a_task_held_dies_on_the_ui_thread(qapp, qtbot, fails):
         go.set()
         qtbot.waitUntil(lambda before=before: len(died) > before, timeout=60_000)
     assert set(died) == {threading.main_thread()}
+
+
+def test_cycles_are_collected_by_the_timer_and_not_by_allocation(qapp, qtbot):
+    keeper, died = QObject(), []
+    collector = Collector(keeper)
+
+    class Node:
+        """Half of a cycle."""
+
+    for _ in range(2 * gc.get_threshold()[0]):
+        a, b = Node(), Node()
+        a.other, b.other = b, a
+        weakref.finalize(a, lambda: died.append(threading.current_thread()))
+    assert not gc.isenabled() and not died
+    qtbot.waitUntil(lambda: bool(died), timeout=60_000)
+    assert set(died) == {threading.main_thread()}
+    collector.deleteLater()

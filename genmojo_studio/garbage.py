@@ -1,0 +1,34 @@
+"""Python's cyclic garbage collected on the UI thread only.
+
+Closed windows are cycles. Python collects on whatever thread happens to allocate; there the Python halves of widgets
+would die while Qt still delivers events to them (background.py).
+"""
+
+from __future__ import annotations
+
+import gc
+
+from PySide6.QtCore import QObject, QTimer
+
+_EVERY_MS = 250
+
+
+class Collector(QObject):
+    """Collects by Python's own thresholds, from a timer of the thread that made it, instead of Python."""
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        gc.collect()
+        gc.freeze()  # modules and their like need not be gone through again
+        gc.disable()
+        self._timer = QTimer(self, interval=_EVERY_MS)
+        self._timer.timeout.connect(self.collect)
+        self._timer.start()
+
+    def collect(self) -> None:
+        """The oldest generation that is due."""
+        due = [
+            g for g, (count, most) in enumerate(zip(gc.get_count(), gc.get_threshold(), strict=True)) if count > most
+        ]
+        if due:
+            gc.collect(due[-1])
