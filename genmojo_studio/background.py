@@ -6,6 +6,7 @@ leaves, and a tenth of a core at most of what it wants.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 import threading
@@ -16,15 +17,23 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Qt, Signal
 
+from genmojo_core.kernels.threads import HELPERS
+
 Done = Callable[[Any], object]
 Failed = Callable[[BaseException], object]
 _NICENESS = 10
 
 
 def give_way() -> None:
-    """The calling thread, and those it starts, have a low priority from now on; on Linux, where threads have one."""
+    """The calling thread, those it starts and the kernels' helpers have a low priority from now on.
+
+    On Linux, where threads have one. The helpers may have been started by a thread that was in a hurry.
+    """
     if sys.platform == "linux":
-        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICENESS)
+        helpers = (one.native_id for one in threading.enumerate() if one.name.startswith(HELPERS))
+        for number in (threading.get_native_id(), *helpers):
+            with contextlib.suppress(ProcessLookupError):  # it has ended meanwhile
+                os.setpriority(os.PRIO_PROCESS, number or 0, _NICENESS)
 
 
 class _Job:

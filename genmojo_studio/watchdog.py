@@ -1,4 +1,4 @@
-"""Notices when the window does not answer: a timer that should fire every 50 ms and looks how late it is.
+"""Notices when the window does not answer: a timer that should fire every 20 ms and looks how late it is.
 
 A late tick has two causes: the UI thread worked (a fault of ours), or the machine gave it no time. The thread's own CPU
 time tells them apart.
@@ -12,7 +12,7 @@ import time
 from PySide6.QtCore import QObject, Qt, QTimer
 
 LOG = logging.getLogger("genmojo_studio")
-_PERIOD_MS = 50
+_PERIOD_MS = 20
 STALL_MS = 100.0
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import importlib
 from pathlib import Path
 from typing import Any, Protocol, cast
 
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+from PySide6.QtCore import QTimer
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent
 from PySide6.QtWidgets import QApplication, QFileDialog, QMainWindow, QStackedWidget, QWidget
 
 from genmojo_core.clip.clip import Clip
@@ -28,6 +30,7 @@ from genmojo_studio.welcome import Welcome
 from genmojo_studio.worker import runs
 
 DEMO_CLIP = "crossing-shapes"
+_PRELOAD_MS = 100  # after the window came up
 
 
 class Workspace(Protocol):
@@ -78,6 +81,8 @@ class MainWindow(QMainWindow):
         self._connect()
         self.menus = Menus(self, table)
         self.show_workspace("")
+        self._preload = QTimer(self, interval=_PRELOAD_MS, singleShot=True)
+        self._preload.timeout.connect(lambda: self.tasks.run(_load_watch, _ask_for_opengl, notify.tell))
         geometry = settings.layout("window")
         if geometry is not None:
             self.restoreGeometry(geometry)
@@ -135,6 +140,12 @@ class MainWindow(QMainWindow):
         self.header.say(tr("Making the demo clip …"), busy=True)
         self.tasks.run(_write_demo, self.open_path, self._reading_failed)
 
+    def showEvent(self, event: QShowEvent) -> None:
+        """Once it is on the screen, what the first clip will need is loaded: opening it then takes no time."""
+        super().showEvent(event)
+        if "watch" not in self.workspaces:
+            self._preload.start()
+
     def closeEvent(self, event: QCloseEvent) -> None:
         """Asks the workspaces; one that says no keeps everything as it is."""
         for workspace in self.workspaces.values():
@@ -143,6 +154,7 @@ class MainWindow(QMainWindow):
                 event.ignore()
                 return
         self.settings.put_layout("window", self.saveGeometry())
+        self._preload.stop()
         self.tasks.close()
         event.accept()
         QApplication.quit()
@@ -262,12 +274,23 @@ def _make_workspace(name: str, state: AppState, table: ActionTable) -> Workspace
     return WatchWorkspace(state, table)
 
 
+def _load_watch() -> None:
+    """Imports what the workspace Watch is made of; on a thread, which lets the window answer meanwhile."""
+    importlib.import_module("genmojo_studio.watch.workspace")
+
+
+def _ask_for_opengl(_: object) -> None:
+    """Making a first OpenGL context loads the driver; the answer is kept."""
+    importlib.import_module("genmojo_studio.view3d.gl_probe").probe()
+
+
 def _read_clip(path: Path) -> tuple[Clip, Path | None]:
     """The clip, with the masks that a person corrected in its project and where they lie, if there are any."""
     from genmojo_core.clip import folders, mask_file
     from genmojo_studio.annotate import hand_masks
     from genmojo_studio.annotate.session import project_path
 
+    _load_watch()
     clip = folders.read(path, short_side=opening.SHARED_SHORT_SIDE)
     masks = project_path(path).with_suffix(hand_masks.SUFFIX)
     return (mask_file.with_masks(clip, masks), masks) if masks.exists() else (clip, None)

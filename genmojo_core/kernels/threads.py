@@ -10,6 +10,8 @@ from itertools import count as counter
 
 import numpy as np
 
+HELPERS = "genmojo-kernel"  # their names begin so
+
 _state: dict[str, ThreadPoolExecutor | int | None] = {"pool": None, "threads": 0}
 _local = threading.local()
 
@@ -76,6 +78,6 @@ def _pool() -> ThreadPoolExecutor:
     """The helpers: all threads but the calling one."""
     pool = _state["pool"]
     if not isinstance(pool, ThreadPoolExecutor):
-        pool = ThreadPoolExecutor(max(get_threads() - 1, 1), thread_name_prefix="genmojo-kernel")
+        pool = ThreadPoolExecutor(max(get_threads() - 1, 1), thread_name_prefix=HELPERS)
         _state["pool"] = pool
     return pool

@@ -23,7 +23,7 @@ from genmojo_studio.view3d.colouring import colour, straight_rgba, value_bounds
 from genmojo_studio.view3d.cpu_painter import CpuPainter, warm_up
 from genmojo_studio.view3d.frames import Feeder, FrameReport, FrameRequest
 from genmojo_studio.view3d.look import BLACK, SCALAR_MODES, Mode
-from genmojo_studio.view3d.quality import FULL, Detail
+from genmojo_studio.view3d.quality import FULL, MOVING_MS, Detail
 
 PATIENCE_MS = 1000  # the first picture takes longer where the kernels have to be compiled
 LARGEST_PIXELS = 1 << 26
@@ -59,6 +59,10 @@ class CpuView(QWidget):
             if self._image is None and not self._patience.isActive():
                 self._patience.start()
             self._drawer.ask(request, self._device_size())
+
+    def set_limit(self, ms: float) -> None:
+        """A frame while moving may take so long; less detail is drawn where it would take longer."""
+        self._drawer.limit_ms = ms
 
     def clear(self) -> None:
         """There is no scene any more."""
@@ -137,6 +141,7 @@ class Drawer:
         self._stopped = False
         self._thread: threading.Thread | None = None
         self._full_ms: float | None = None
+        self.limit_ms = MOVING_MS
         self._was_moving = False
         self._warm = False  # the first frame may include compiling the kernels
         self._bounds: tuple[object, tuple[float, float]] = (None, (0.0, 1.0))
@@ -209,7 +214,8 @@ class Drawer:
         start = time.perf_counter()
         quality = FULL
         if request.moving:
-            if not self._was_moving:
+            if not self._was_moving or self._detail.limit_ms != self.limit_ms:
+                self._detail.limit_ms = self.limit_ms
                 self._detail.begin(self._full_ms)
             quality = self._detail.quality
         self._was_moving = request.moving

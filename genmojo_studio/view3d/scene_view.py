@@ -6,6 +6,8 @@ the mouse into orbits, and draws on demand only.
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -25,12 +27,14 @@ from genmojo_studio.view3d.look import BLACK, Look, Mode
 from genmojo_studio.view3d.orbit import PRESETS, Orbit, Reference, between, reference_of
 from genmojo_studio.view3d.overlay import Overlay, Paint
 from genmojo_studio.view3d.picking import Pick, pick
+from genmojo_studio.view3d.quality import MOVING_MS
 from genmojo_studio.view3d.snapshot import SceneSnapshot
 from genmojo_studio.view3d.splat_view import SplatView
 
 REST_MS = 180  # after the last movement for so long, full detail is drawn
 TURN_MS = 350  # an animated change of view
 _CLICK_PIXELS = 4
+_PACED_SHARE = 0.5  # of the time between two paced frames, drawing takes no more
 SOFT_BANNER_MS = 8000  # news that changes nothing goes away by itself
 HINT_MS = 12000  # so does the hint at how to move about, or with the first press
 
@@ -68,6 +72,10 @@ class SceneView(QWidget):
         self._turn.setEasingCurve(QEasingCurve.Type.Linear)  # `between` eases
         self._turn.valueChanged.connect(self._turned)
         self._way: tuple[Orbit, Orbit] = (Orbit(), Orbit())
+        self._pace = 0.0
+        self._drawn_at = 0.0
+        self._later = QTimer(self, singleShot=True, timerType=Qt.TimerType.PreciseTimer)
+        self._later.timeout.connect(self._redraw)
         self.surface: SplatView | CpuView
         self.overlay = Overlay(self)
         self._choose(engine)
@@ -115,13 +123,19 @@ class SceneView(QWidget):
             self._look = look
             self.surface.backdrop = look.backdrop or BLACK
             self.surface.update()  # also without a scene
-            self._redraw()
+            self._move()
 
     def set_input(self, frame: Callable[[int], np.ndarray | None] | None) -> None:
         """Where Mode.RESIDUAL gets the clip's frame t (H, W, 3) uint8 from."""
         self._input = frame
         if self._look.mode == Mode.RESIDUAL:
             self._redraw()
+
+    def set_pace(self, seconds: float) -> None:
+        """While something moves, frames lie so far apart at least; 0: as fast as they can be drawn."""
+        self._pace = seconds
+        if isinstance(self.surface, CpuView):
+            self.surface.set_limit(1e3 * seconds * _PACED_SHARE if seconds else MOVING_MS)
 
     def add_overlay(self, paint: Paint) -> None:
         """Let `paint(painter, view, t)` draw over every frame; `view` is the camera in logical pixels."""
@@ -259,8 +273,8 @@ class SceneView(QWidget):
 
     def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 - Qt's name
         """Free what the surface holds."""
-        self._turn.stop()
-        self._rest.stop()
+        for clock in (self._turn, self._rest, self._later):
+            clock.stop()
         self.surface.drop_gl()
         super().closeEvent(event)
 
@@ -349,8 +363,15 @@ class SceneView(QWidget):
         self._redraw()
 
     def _redraw(self) -> None:
-        """Ask the surface for a frame, if there is a scene and somebody can see it."""
+        """Ask the surface for a frame, if there is a scene and somebody can see it; not sooner than the pace allows."""
         if self._snapshot is not None and self.isVisible():
+            now = time.monotonic()
+            wait = self._drawn_at + self._pace - now
+            if self._rest.isActive() and wait > 0:
+                if not self._later.isActive():
+                    self._later.start(math.ceil(1e3 * wait))
+                return
+            self._drawn_at = now
             self.surface.show_frame(self._request(moving=self._rest.isActive()))
 
     def _request(self, *, moving: bool) -> FrameRequest:

@@ -105,6 +105,7 @@ class Curves(QWidget):
         self._dirty = False
         self._drawers[self.what.currentData()][0]()
         self._draw_marks()
+        plots.settle(self.plot)
 
     def _draw_accuracy(self) -> None:
         rows = [(at, value) for at, _, value in self._log.accuracy]

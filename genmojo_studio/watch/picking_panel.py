@@ -17,6 +17,7 @@ from genmojo_studio.view3d.picking import Contributor, Pick
 from genmojo_studio.view3d.snapshot import SceneSnapshot
 from genmojo_studio.watch import plots, trajectory
 from genmojo_studio.watch.controls import line
+from genmojo_studio.watch.plots import LatePlot
 from genmojo_studio.watch.trajectory import Trajectory
 
 _OWN_NUMBER = (1 << 48) - 1  # the object's id stands above these bits of a Gaussian's number
@@ -50,10 +51,7 @@ class PickingPanel(QWidget):
             ("colour", tr("Colour")),
         ):
             self.what.addItem(text, key)
-        self.plot = pg.PlotWidget()
-        self.plot.setLabel("bottom", tr("frame"))
-        self.plot.addLegend(offset=(-8, 8), labelTextSize="8pt")
-        self.plot.hideButtons()
+        self.plot = LatePlot(self._made, self._fill)
         self._here = pg.InfiniteLine(0, angle=90, pen=pg.mkPen(SERIES[1]))
         left, right = QVBoxLayout(), QVBoxLayout()
         left.addWidget(self.said)
@@ -65,10 +63,9 @@ class PickingPanel(QWidget):
         layout.addLayout(left, 2)
         layout.addLayout(right, 3)
         self.list.itemSelectionChanged.connect(self._follow_chosen)
-        self.what.activated.connect(self._draw)
+        self.what.activated.connect(self.plot.draw)
         state.subscribe(self._show_frame, "frame")
         state.subscribe(self._dress, "theme")
-        self._dress()
         self.clear()
 
     def clear(self) -> None:
@@ -77,7 +74,7 @@ class PickingPanel(QWidget):
         self._snapshot, self.trajectory = None, None
         self.list.clear()
         self.said.setText(tr("Click a place in the scene to see which Gaussians make its colour."))
-        self._draw()
+        self.plot.draw()
         self.trajectory_changed.emit()
 
     def close_tasks(self) -> None:
@@ -126,12 +123,20 @@ class PickingPanel(QWidget):
 
     def _take(self, found: Trajectory) -> None:
         self.trajectory = found
-        self._draw()
+        self.plot.draw()
         self.trajectory_changed.emit()
 
-    def _draw(self) -> None:
-        self.plot.clear()
-        self.plot.addItem(self._here, ignoreBounds=True)
+    def _made(self) -> pg.PlotWidget:
+        plot = pg.PlotWidget()
+        plot.setLabel("bottom", tr("frame"))
+        plot.addLegend(offset=(-8, 8), labelTextSize="8pt")
+        plot.hideButtons()
+        plots.dress(plot, self._state.theme)
+        return plot
+
+    def _fill(self, plot: pg.PlotWidget) -> None:
+        plot.clear()
+        plot.addItem(self._here, ignoreBounds=True)
         if self.trajectory is None:
             return
         what = str(self.what.currentData())
@@ -139,13 +144,14 @@ class PickingPanel(QWidget):
             colour = ("#e0524d", "#3fa45b", "#4f8fe0")[i] if what == "colour" else SERIES[i]
             symbol = "o" if len(values) == 1 else None
             frames = np.arange(len(values)) + self.trajectory.first + 1
-            self.plot.plot(frames, values, name=name, pen=pg.mkPen(colour, width=2), symbol=symbol, symbolBrush=colour)
+            plot.plot(frames, values, name=name, pen=pg.mkPen(colour, width=2), symbol=symbol, symbolBrush=colour)
 
     def _show_frame(self) -> None:
         self._here.setValue(self._state.frame + 1)
 
     def _dress(self) -> None:
-        plots.dress(self.plot, self._state.theme)
+        if self.plot.plot is not None:
+            plots.dress(self.plot.plot, self._state.theme)
 
 
 def _item(one: Contributor) -> QTreeWidgetItem:

@@ -5,9 +5,42 @@ Without grid lines: drawing them takes more than all the rest of a plot, and cur
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pyqtgraph as pg
+from PySide6.QtGui import QShowEvent
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from genmojo_studio.theme import colours
+
+
+class LatePlot(QWidget):
+    """A plot that is made when it is first on show: that takes 50 ms, and most lie behind other panels.
+
+    Args:
+        make: makes the plot; `draw` fills it, then and whenever it is asked for anew.
+    """
+
+    def __init__(self, make: Callable[[], pg.PlotWidget], draw: Callable[[pg.PlotWidget], None]) -> None:
+        super().__init__()
+        self._make, self._draw = make, draw
+        self.plot: pg.PlotWidget | None = None
+        self._layout = QVBoxLayout(self)
+        self._layout.setContentsMargins(0, 0, 0, 0)
+
+    def draw(self) -> None:
+        """Draws what there is to draw, if anybody has ever looked."""
+        if self.plot is not None:
+            self._draw(self.plot)
+            settle(self.plot)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Somebody looks."""
+        super().showEvent(event)
+        if self.plot is None:
+            self.plot = self._make()
+            self._layout.addWidget(self.plot)
+            self.draw()
 
 
 def dress(plot: pg.PlotWidget, theme: str) -> None:
@@ -22,3 +55,8 @@ def dress(plot: pg.PlotWidget, theme: str) -> None:
     legend = plot.getPlotItem().legend
     if legend is not None:
         legend.setLabelTextColor(table.text)
+
+
+def settle(plot: pg.PlotWidget) -> None:
+    """Fits the axes to what was drawn now: left to the next repaint, their numbers could stay as they were before."""
+    plot.getPlotItem().getViewBox().updateAutoRange()

@@ -43,6 +43,7 @@ class RunControl(QObject):
         self.stop_below: float | None = None
         self.phase = ""
         self.view_cost = 0.0
+        self.draw_share: Callable[[], float] = lambda: 0.0  # of a step that drawing adds, as the window measures it
         self.parameters: dict[str, float] = {}  # as they were changed while the run goes on
         self._rule = StopRule()
         self._wanted: list[tuple[Path, Callable[[Path], None]]] = []  # scenes asked for while the run goes on
@@ -94,6 +95,7 @@ class RunControl(QObject):
         """Lets the worker go on alone; its run can be attached to later."""
         self.client.detach()
         self.state = ""
+        self.quiet.emit(False)
 
     def look(self, frame: int) -> None:
         """Previews of this frame from now on."""
@@ -159,6 +161,8 @@ class RunControl(QObject):
     def _state(self, state: str) -> None:
         began = state == "running" and self.state in ("starting", "ready")
         self.state = state
+        if state not in ("running", "stepping"):
+            self.quiet.emit(False)  # a measurement that was cut short keeps nothing from the view
         if began and not self._view_shown:
             self.show_view(False)
         self.state_changed.emit()
@@ -187,7 +191,8 @@ class RunControl(QObject):
     def _beat(self, beat: dict[str, Any]) -> None:
         self.log.add_memory(float(beat.get("rss_mb", 0.0)))
         view = beat.get("view", {})
-        self.view_cost = float(view.get("publish_share") or 0.0) + float(view.get("draw_share") or 0.0)
+        drawing = max(float(view.get("draw_share") or 0.0), self.draw_share())
+        self.view_cost = float(view.get("publish_share") or 0.0) + drawing
         self.log_grew.emit()
 
     def _phase(self, _phase: str, note: str) -> None:

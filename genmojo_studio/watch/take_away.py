@@ -13,7 +13,6 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QFileDialog, QMessageBox, QProgressDialog, QWidget
 
 from genmojo_core.errors import GenmojoError
-from genmojo_core.measure.sheet import encode_png
 from genmojo_core.store.atomic import write_bytes
 from genmojo_studio import notify
 from genmojo_studio.background import Tasks
@@ -116,6 +115,8 @@ class TakeAway(QObject):
         }  # fmt: skip
 
         def write(pixels: np.ndarray) -> Path:
+            from genmojo_core.measure.sheet import encode_png  # on this thread: it loads the compiled kernels
+
             write_bytes(output, encode_png(pixels))
             write_bytes(Path(output).with_suffix(".json"), json.dumps(about, indent=1).encode())
             return Path(output)

@@ -30,6 +30,7 @@ from genmojo_studio.theme import SERIES
 from genmojo_studio.translate import tr
 from genmojo_studio.watch import plots, track_sets
 from genmojo_studio.watch.controls import row
+from genmojo_studio.watch.plots import LatePlot
 from genmojo_studio.watch.track_sets import Apart, TrackSet, TrackSets
 
 _MOST_WORST = 50
@@ -51,15 +52,8 @@ class TracksPanel(QWidget):
         self.list.setHeaderLabels([tr("Tracks"), tr("Origin"), tr("Points")])
         self.list.setRootIsDecorated(False)
         self.which, self.reference = QComboBox(), QComboBox()
-        self.plot = pg.PlotWidget()
-        self.plot.setLabel("bottom", tr("frame"))
-        self.plot.setLabel("left", tr("px at 256"))
-        self.plot.hideButtons()
-        self.plot.setMouseEnabled(False, False)
-        self._line = self.plot.plot(pen=pg.mkPen(SERIES[0], width=2), connect="finite")
+        self.plot = LatePlot(self._made, self._fill)
         self._here = pg.InfiniteLine(0, angle=90, pen=pg.mkPen(SERIES[1]))
-        self.plot.addItem(self._here, ignoreBounds=True)
-        self.plot.scene().sigMouseClicked.connect(self._clicked)
         self.said = QLabel()
         self.said.setProperty("role", "dim")
         self.worst = QTreeWidget()
@@ -84,7 +78,6 @@ class TracksPanel(QWidget):
         state.subscribe(self._follow_clip, "clip")
         state.subscribe(self._show_frame, "frame")
         state.subscribe(self._dress, "theme")
-        self._dress()
 
     @property
     def selected(self) -> tuple[str, int] | None:
@@ -166,13 +159,12 @@ class TracksPanel(QWidget):
         second = self.sets.sets.get(str(self.reference.currentData()))
         self.worst.clear()
         self._apart = None
-        self._line.setData([], [])
         self.said.setText("")
         if first is None or second is None or first is second:
+            self.plot.draw()
             return
         self._apart = track_sets.apart(first.tracks, second.tracks)
-        by_frame = self._apart.by_frame()
-        self._line.setData(np.arange(1, len(by_frame) + 1), by_frame)
+        self.plot.draw()
         known = self._apart.error[np.isfinite(self._apart.error)]
         text = tr("{count} pairs, median {median:.2f} px, states differ in {share:.1f} %")
         if len(known):
@@ -196,8 +188,9 @@ class TracksPanel(QWidget):
             self.changed.emit()
 
     def _clicked(self, event: object) -> None:
-        at = self.plot.getPlotItem().vb.mapSceneToView(event.scenePos())  # type: ignore[attr-defined]
-        self._state.set(playing=False, frame=round(at.x()) - 1)
+        if self.plot.plot is not None:
+            at = self.plot.plot.getPlotItem().vb.mapSceneToView(event.scenePos())  # type: ignore[attr-defined]
+            self._state.set(playing=False, frame=round(at.x()) - 1)
 
     def _ask_import(self) -> None:
         kinds = tr("Tracks, or the scene of another run") + " (*.npz *.h5 *.hdf5)"
@@ -221,8 +214,28 @@ class TracksPanel(QWidget):
     def _show_frame(self) -> None:
         self._here.setValue(self._state.frame + 1)
 
+    def _made(self) -> pg.PlotWidget:
+        plot = pg.PlotWidget()
+        plot.setLabel("bottom", tr("frame"))
+        plot.setLabel("left", tr("px at 256"))
+        plot.hideButtons()
+        plot.setMouseEnabled(False, False)
+        plot.scene().sigMouseClicked.connect(self._clicked)
+        plots.dress(plot, self._state.theme)
+        return plot
+
+    def _fill(self, plot: pg.PlotWidget) -> None:
+        """How far apart the two sets are in every frame."""
+        plot.clear()
+        plot.addItem(self._here, ignoreBounds=True)
+        if self._apart is not None:
+            by_frame = self._apart.by_frame()
+            pen = pg.mkPen(SERIES[0], width=2)
+            plot.plot(np.arange(1, len(by_frame) + 1), by_frame, pen=pen, connect="finite")
+
     def _dress(self) -> None:
-        plots.dress(self.plot, self._state.theme)
+        if self.plot.plot is not None:
+            plots.dress(self.plot.plot, self._state.theme)
 
 
 def _column(*parts: QWidget | QLayout) -> QVBoxLayout:

@@ -12,8 +12,10 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import statistics
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -22,6 +24,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 from genmojo_studio.app import make_application  # noqa: E402 - after the path is set
 from genmojo_studio.view3d.orbit import Orbit  # noqa: E402
 from genmojo_studio.view3d.scene_view import SceneView  # noqa: E402
+from genmojo_studio.watch.considerate import Considerate  # noqa: E402
 from genmojo_studio.worker.protocol import RunRequest  # noqa: E402
 from tests.benchmarks.worker_overhead import compared, pin, turn  # noqa: E402
 from tests.worker.driving import Watched, watched  # noqa: E402
@@ -39,6 +42,7 @@ class Looker:
         self.moving = False
         self.view.frame_drawn.connect(self._drawn)
         window.client.preview_ready.connect(self.view.set_snapshot)
+        self.considerate = Considerate(self.view, window.client)
 
     def start(self, moving: bool) -> None:
         """Orbit from now on, or rest."""
@@ -68,6 +72,7 @@ def main() -> None:
     if not args.shared:
         pin(0, 1)
     rows: dict[str, list[tuple[float, float]]] = {"off": [], "orbiting": []}
+    rates: list[float] = []  # frames a second while orbiting
     with tempfile.TemporaryDirectory() as folder:
         os.environ["GENMOJO_RUNS"] = folder
         request = RunRequest(args.clip, str(Path(folder) / "run"), "draft", changes, frames=(first, end), cadence="off")
@@ -82,13 +87,16 @@ def main() -> None:
                 looker.start(False)
                 rows["off"].append(turn(window, "off", args.steps))
                 looker.start(True)
+                begun, before = time.monotonic(), looker.frames
                 rows["orbiting"].append(turn(window, "live", args.steps))
+                rates.append((looker.frames - before) / (time.monotonic() - begun))
             beat = window.client.beat
             looker.start(False)
             looker.view.close()
             window.answer(window.client.stop(keep=False), 60)
     found = compared(rows, "orbiting", "off")
     print(json.dumps({"orbiting_over_off": found, "frames": looker.frames, "shared": args.shared, "view": beat["view"],
+                      "told": looker.considerate.share, "fps": statistics.median(rates),
                       "load": os.getloadavg()[0]}))  # fmt: skip
     del application
 
