@@ -93,10 +93,16 @@ class Tasks:
         _bell()
         manners = give_way if yields else None
         self._pool = ThreadPoolExecutor(threads, thread_name_prefix="genmojo-task", initializer=manners)
+        self._closed = False
         self._waiting: set[_Job] = set()
 
     def run(self, work: Callable[[], Any], done: Done, failed: Failed) -> None:
-        """Does `work()` on a thread, then calls `done(result)` or `failed(error)` on the UI thread."""
+        """Does `work()` on a thread, then calls `done(result)` or `failed(error)` on the UI thread.
+
+        Once closed, nothing is done any more.
+        """
+        if self._closed:
+            return
         job = _Job(self, work, done, failed)
         self._waiting.add(job)
         job.future = self._pool.submit(job.call)
@@ -115,6 +121,7 @@ class Tasks:
 
     def close(self) -> None:
         """Drops everything and lets the threads end."""
+        self._closed = True
         self.drop()
         self._pool.shutdown(wait=False)
 

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from genmojo_core.store.scene_file import BakedScene
 
 
-AUTO_SECONDS = 300.0  # budget of `--preset auto` where none is given
 _GLANCE = 64  # pixels at which one frame is read to learn the clip's size
 
 
@@ -88,7 +87,7 @@ def configured(args: argparse.Namespace) -> RunConfig:
     if name != "auto":
         return preset(name, **changes)
     from genmojo_core.clip import folders
-    from genmojo_core.effects.auto import for_budget
+    from genmojo_core.effects.auto import AUTO_SECONDS, for_budget
 
     first = args.frames[0] if args.frames else 0
     clip = folders.read(args.clip, frames=(first, first + 1), short_side=_GLANCE, pixel_aspect=args.pixel_aspect)

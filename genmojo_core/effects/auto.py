@@ -13,6 +13,7 @@ from typing import Any
 from genmojo_core.clip.clip import Clip
 from genmojo_core.config import RunConfig, preset
 
+AUTO_SECONDS = 300.0  # where no budget is given
 LONGEST = 100_000  # joint steps: more than any time allows
 _ANCHOR = 30.0  # seconds on the reference machine at which the first values hold
 _SIDE, _SIDE_POWER = 180.0, 0.27  # pixels of the short side of a square clip

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QFileDialog,
+    QMenu,
     QPushButton,
     QSlider,
     QTreeWidget,
@@ -31,9 +33,12 @@ from genmojo_studio.watch import differences, painting, reference
 from genmojo_studio.watch.controls import line, row
 from genmojo_studio.watch.latest import Latest
 from genmojo_studio.watch.picture import Picture
+from genmojo_studio.worker import runs
 
 MODES = ("off", "side", "wipe", "blink", "difference")
 _BLINK_MS = 450
+_KEPT = 6  # checkpoints of a run: its first and the newest
+_OFFERED = 8  # other runs
 _WIDTH = 800  # pixels at most of the pictures that are compared
 
 
@@ -85,7 +90,10 @@ class ComparePanel(QWidget):
         self._blink_second = True
         self.pane = Picture(state)
         self.pane.hide()
-        self.choose, self.freeze = QPushButton(tr("Choose a scene…")), QPushButton(tr("Freeze what is on show"))
+        self._kept: list[Side] = []
+        self.choose, self.freeze = QPushButton(tr("Choose a scene")), QPushButton(tr("Freeze what is on show"))
+        self.offers = QMenu(self.choose)
+        self.choose.setMenu(self.offers)
         self.mode = QComboBox()
         texts = (tr("Off"), tr("Side by side"), tr("Wipe"), tr("Blink"), tr("Difference"))
         for mode, text in zip(MODES, texts, strict=True):
@@ -106,7 +114,7 @@ class ComparePanel(QWidget):
         self._blink = QTimer(self)
         self._blink.setInterval(_BLINK_MS)
         self._blink.timeout.connect(self._blinked)
-        self.choose.clicked.connect(self._ask)
+        self.offers.aboutToShow.connect(self._offer)
         self.freeze.clicked.connect(self._freeze)
         self.mode.activated.connect(self._take_mode)
         self.share.valueChanged.connect(self._join)
@@ -135,6 +143,16 @@ class ComparePanel(QWidget):
         clip = self._state.clip
         self._latest.ask(lambda: _draw_both(request, second.snapshot, (width, height), clip))
 
+    def keep_checkpoint(self, step: int) -> None:
+        """The run wrote a checkpoint: what is on show now can be compared with what comes after."""
+        if self._first is not None and self._first.scene is None:
+            name = tr("Checkpoint at step {step}").format(step=step)
+            self._kept = [*self._kept[:1], *self._kept[1:][-(_KEPT - 2) :], Side(name, self._first.snapshot)]
+
+    def forget_checkpoints(self) -> None:
+        """Another run begins."""
+        self._kept = []
+
     def open_second(self, path: Path) -> None:
         """Reads the other scene."""
         self._tasks.run(lambda: _read(path), self._take_second, notify.tell)
@@ -144,6 +162,17 @@ class ComparePanel(QWidget):
         self._blink.stop()
         self._tasks.close()
         self._latest.close()
+
+    def _offer(self) -> None:
+        """Checkpoints of the run on show, scenes of other runs, any file."""
+        self.offers.clear()
+        for side in reversed(self._kept):
+            self.offers.addAction(side.name, partial(self._take_second, side))
+        self.offers.addSeparator()
+        for path in runs.newest_scenes(_OFFERED):
+            self.offers.addAction(path.parent.name, partial(self.open_second, path))
+        self.offers.addSeparator()
+        self.offers.addAction(tr("A file…"), self._ask)
 
     def _ask(self) -> None:
         path, _ = QFileDialog.getOpenFileName(self, tr("Choose a scene"), "", "HDF5 (*.h5 *.hdf5)")

@@ -33,6 +33,8 @@ class RunControl(QObject):
     died = Signal(object)
     ended = Signal(object)
     failed = Signal(object)
+    began = Signal()
+    checkpointed = Signal(int)  # at a step
     quiet = Signal(bool)  # the worker measures what the view costs: do not draw
 
     def __init__(self, parent: QObject | None = None) -> None:
@@ -150,6 +152,7 @@ class RunControl(QObject):
         self.parameters = {}
         self._rule = StopRule()
         self.phase = ""
+        self.began.emit()
         self.log_grew.emit()
 
     def _ask(self, command: Callable[[], Any]) -> None:
@@ -177,6 +180,8 @@ class RunControl(QObject):
             for path, then in [wanted for wanted in self._wanted if str(wanted[0]) == event.get("path")]:
                 self._wanted.remove((path, then))
                 then(path)
+        if event.get("event") == "Checkpointed" and self.state in ("running", "stepping", "paused"):
+            self.checkpointed.emit(int(event["step"]))
         if event.get("event") == "ParameterChanged":
             self.parameters[str(event["name"])] = float(event["new"])
         self.log_grew.emit()

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import asdict, replace
+from typing import Any
 
-from PySide6.QtCore import QTimer, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtWidgets import QComboBox, QFormLayout, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.clip.resize import fitted
 from genmojo_core.config import PRESETS, RunConfig
+from genmojo_core.effects.auto import AUTO_SECONDS, for_budget
 from genmojo_core.effects.costs import run_sizes
 from genmojo_core.effects.difficulty import Difficulty
 from genmojo_core.effects.forecast import foretold, work_of
@@ -21,6 +23,8 @@ from genmojo_studio.watch.effects_table import EffectsTable
 from genmojo_studio.worker.protocol import RunRequest
 
 _NO_LIMIT = 1e9  # seconds: JSON knows no infinity
+AUTO = "auto"
+_LEAST_AUTO = 10  # seconds
 _DEVICES = ("auto", "cpu", "cuda")
 
 
@@ -34,10 +38,12 @@ class RunSetup(QWidget):
         self._state = state
         self._measured_for: tuple[object, ...] | None = None
         self.preset = QComboBox()
-        for name, text in (("draft", tr("Draft")), ("standard", tr("Standard")), ("full", tr("Full (as the paper)"))):
+        texts = (tr("Draft"), tr("Standard"), tr("Full (as the paper)"), tr("Best for the budget"))
+        for name, text in zip((*PRESETS, AUTO), texts, strict=True):
             self.preset.addItem(text, name)
+        told = tr("Size, Gaussians and pace are chosen so that the budget buys most.")
+        self.preset.setItemData(self.preset.findData(AUTO), told, Qt.ItemDataRole.ToolTipRole)
         self.budget = number(0, 86400, " s", 0, 10)
-        self.budget.setSpecialValueText(tr("no limit"))
         self.budget.setToolTip(tr("The run ends after this time with what it has."))
         self.device = QComboBox()
         for name, text in zip(_DEVICES, (tr("Automatic"), tr("Processor"), tr("Graphics card (CUDA)")), strict=True):
@@ -78,7 +84,7 @@ class RunSetup(QWidget):
         if path is None:
             self.said.setText(tr("Open a clip to start a run."))
             return
-        preset, masks = str(self.preset.currentData()), self._state.masks_path
+        preset, masks = self._preset, self._state.masks_path
         edited = masks.stat().st_mtime_ns if masks is not None and masks.exists() else 0
         wanted = (path, preset, edited)
         if self.isVisible() and wanted != self._measured_for:
@@ -93,27 +99,48 @@ class RunSetup(QWidget):
         QTimer.singleShot(0, self.refresh)
 
     def config(self) -> RunConfig:
-        """The preset with the budget and device of the form."""
-        return replace(PRESETS[str(self.preset.currentData())], budget_seconds=self._budget())
+        """The preset with the budget of the form, or what gives most in that budget."""
+        clip = self._state.clip
+        if self._is_auto and clip is not None:
+            return for_budget(self._budget(), clip)
+        return replace(PRESETS.get(self._preset, PRESETS["draft"]), budget_seconds=self._budget())
 
     def request(self) -> RunRequest | None:
         """What to ask the worker for; None without a clip."""
         if self._state.clip_path is None:
             return None
+        changes = {"budget_seconds": self._budget(), "device": str(self.device.currentData())}
         return RunRequest(
             clip=str(self._state.clip_path),
-            preset=str(self.preset.currentData()),
-            changes={"budget_seconds": self._budget(), "device": str(self.device.currentData())},
+            preset="draft" if self._is_auto else self._preset,
+            changes=self._chosen() | changes,
             effects=self.effects.overrides(),
             look_at=self._state.frame,
             masks=str(self._state.masks_path or ""),
         )
 
+    @property
+    def _preset(self) -> str:
+        return str(self.preset.currentData())
+
+    @property
+    def _is_auto(self) -> bool:
+        return self._preset == AUTO
+
+    def _chosen(self) -> dict[str, Any]:
+        """What the choice for a budget changes in a draft; {} for the other presets."""
+        if not self._is_auto:
+            return {}
+        draft = asdict(PRESETS["draft"])
+        return {name: value for name, value in asdict(self.config()).items() if value != draft[name]}
+
     def _budget(self) -> float:
         return self.budget.value() if self.budget.value() >= 1 else _NO_LIMIT
 
     def _take_preset(self) -> None:
-        budget = PRESETS[str(self.preset.currentData())].budget_seconds
+        budget = AUTO_SECONDS if self._is_auto else PRESETS[self._preset].budget_seconds
+        self.budget.setMinimum(_LEAST_AUTO if self._is_auto else 0)
+        self.budget.setSpecialValueText("" if self._is_auto else tr("no limit"))
         self.budget.setValue(budget if budget < 86400 else 0)
         self.refresh()
 

@@ -203,6 +203,8 @@ class WatchWorkspace(QMainWindow):
         control.snapshot.connect(session.take_preview)
         control.log_grew.connect(self._log_grew)
         control.failed.connect(self._tell)
+        control.began.connect(self.compare.forget_checkpoints)
+        control.checkpointed.connect(self.compare.keep_checkpoint)
         control.ended.connect(self._run_ended)
         control.quiet.connect(self.view.set_quiet)
         self.setup.start_wanted.connect(lambda: self.table.trigger("run.start"))

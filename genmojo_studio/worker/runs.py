@@ -6,6 +6,7 @@ says how to reach it. A copy under `<runs>/live` makes it findable for a window 
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import re
@@ -133,6 +134,15 @@ def live_runs() -> list[LiveRun]:
         else:
             found[run.run_dir] = run
     return sorted(found.values(), key=lambda run: run.started)
+
+
+def newest_scenes(count: int) -> list[Path]:
+    """Scene files of the last runs that ended with one, the newest first."""
+    found = []
+    for path in runs_folder().glob(f"*/{SCENE}"):
+        with contextlib.suppress(OSError):  # taken away meanwhile
+            found.append((path.stat().st_mtime, path))
+    return [path for _, path in sorted(found, reverse=True)[:count]]
 
 
 def read_json(path: Path) -> dict[str, Any]:

@@ -1,13 +1,15 @@
 """Before a run the form tells what to expect, and follows the budget and the effects as they are chosen."""
 
+import json
 import re
 
 from PySide6.QtCore import Qt
 
-from genmojo_core.config import PRESETS
-from genmojo_core.effects import decide
+from genmojo_core.config import PRESETS, preset
+from genmojo_core.effects import auto, decide
 from genmojo_studio.state import AppState
 from genmojo_studio.watch.run_setup import RunSetup
+from genmojo_studio.worker.protocol import RunRequest
 from tests.optimise.small_runs import small_clip
 
 EXPECTED = {"factor": 1.0, "clip": {"texture": 30.0, "motion": 30.0, "change": 20.0, "area": 0.1, "moved": 1.0}}
@@ -39,3 +41,19 @@ def test_what_to_expect_follows_budget_and_effects(qapp, tmp_path):
                if setup.effects.rows[i]["name"] == "non_rigid_motion")  # fmt: skip
     setup.effects.topLevelItem(row).setCheckState(0, Qt.CheckState.Unchecked)
     assert told(setup)[0] < seconds
+
+
+def test_best_for_the_budget_asks_for_what_the_command_line_would(qapp, tmp_path):
+    state, clip = AppState(), small_clip()
+    setup = RunSetup(state)
+    state.open_clip(clip, tmp_path)
+    setup.preset.setCurrentIndex(setup.preset.findData("auto"))
+    setup.preset.activated.emit(setup.preset.currentIndex())
+    assert setup.budget.value() == auto.AUTO_SECONDS and setup.budget.minimum() > 0  # "no limit" makes no sense here
+    setup.budget.setValue(60)
+    request = setup.request()
+    asked = RunRequest.from_json(json.loads(json.dumps(request.to_json())))
+    assert preset(asked.preset, **asked.changes) == auto.for_budget(60.0, clip)
+    setup.preset.setCurrentIndex(setup.preset.findData("draft"))
+    setup.preset.activated.emit(setup.preset.currentIndex())
+    assert setup.budget.minimum() == 0 and setup.request().changes["budget_seconds"] == 70.0

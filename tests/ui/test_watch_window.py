@@ -138,6 +138,51 @@ def test_a_frozen_scene_is_compared_with_what_comes_after(watch, qtbot):
     assert watch.compare.table.topLevelItem(0).text(3) == "+0"
 
 
+def test_checkpoints_of_the_run_are_offered_for_comparing(watch, qtbot):
+    snapshot = replace(SceneSnapshot.from_baked(_scene()), step=30)
+    watch.session.take_preview(snapshot)
+    watch.control.state = "running"
+    for step in range(30, 130, 10):
+        watch.control.client.event_received.emit({"event": "Checkpointed", "seconds": 1.0, "step": step, "path": ""})
+    watch.control.state = "done"
+    watch.compare.offers.aboutToShow.emit()
+    offered = [action.text() for action in watch.compare.offers.actions() if action.text()]
+    assert offered[:6] == [f"Checkpoint at step {step}" for step in (120, 110, 100, 90, 80, 30)]
+    assert offered[-1].startswith("A file")
+    watch.compare.offers.actions()[5].trigger()
+    assert watch.compare.active and watch.compare.second.snapshot is snapshot
+    watch.control.began.emit()
+    watch.compare.offers.aboutToShow.emit()
+    assert not [action for action in watch.compare.offers.actions() if "Checkpoint" in action.text()]
+
+
+@pytest.mark.parametrize("end", ["paused", "done", "failed"])
+def test_a_measurement_that_was_cut_short_keeps_nothing_from_the_view(watch, end):
+    newer = replace(watch.session.snapshot, version=99)
+    watch.control.client.state_changed.emit("running")
+    watch.control.client.probe_changed.emit(True)
+    watch.view.show_snapshot(newer)
+    assert watch.view.snapshot is not newer
+    watch.control.client.state_changed.emit(end)
+    watch.control.state = "done"  # there is no worker that the window would have to ask about when it closes
+    assert watch.view.snapshot is newer
+
+
+def test_while_a_run_goes_on_frames_keep_a_pace(watch, qtbot):
+    client, moments = watch.control.client, []
+    watch.view.frame_drawn.connect(lambda _: moments.append(time.monotonic()))
+    client.state_changed.emit("running")
+    watch.view.set_pace(0.3)
+    for azimuth in range(1, 200):
+        watch.view.set_orbit(Orbit(azimuth=azimuth / 10))
+        QTest.qWait(5)
+    qtbot.waitUntil(lambda: moments and watch.view.overlay.report.request.orbit.azimuth == 19.9, timeout=30_000)
+    asked = moments[-1] - moments[0]
+    assert len(moments) <= asked / 0.3 + 3  # the first, the last, and the full one at rest
+    client.state_changed.emit("done")
+    assert watch.view._pace == 0.0
+
+
 def test_a_picture_of_the_view_has_the_size_asked_for(watch, qtbot, tmp_path):
     output = tmp_path / "view.png"
     watch.take_away.save_picture(str(output), (320, 180), True)
