@@ -1744,16 +1744,16 @@
       <translation>Wählen Sie eine andere Szene, oder frieren Sie diese ein und vergleichen Sie, während es weitergeht.</translation>
     </message>
     <message>
+      <source>A file…</source>
+      <translation>Eine Datei…</translation>
+    </message>
+    <message>
       <source>Choose a scene</source>
       <translation>Szene wählen</translation>
     </message>
     <message>
       <source>PSNR of this frame (dB)</source>
       <translation>PSNR dieses Bilds (dB)</translation>
-    </message>
-    <message>
-      <source>Choose a scene…</source>
-      <translation>Szene wählen…</translation>
     </message>
     <message>
       <source>Freeze what is on show</source>
@@ -1770,6 +1770,10 @@
     <message>
       <source>held-out PSNR (dB)</source>
       <translation>PSNR zurückgehalten (dB)</translation>
+    </message>
+    <message>
+      <source>Checkpoint at step {step}</source>
+      <translation>Prüfpunkt bei Schritt {step}</translation>
     </message>
     <message>
       <source>{name}, frozen at step {step}</source>
@@ -2156,8 +2160,24 @@
       <translation>Dort ist nichts.</translation>
     </message>
     <message>
-      <source>no limit</source>
-      <translation>unbegrenzt</translation>
+      <source>Size, Gaussians and pace are chosen so that the budget buys most.</source>
+      <translation>Größe, Gaußglocken und Tempo werden so gewählt, dass das Budget am meisten bringt.</translation>
+    </message>
+    <message>
+      <source>Draft</source>
+      <translation>Entwurf</translation>
+    </message>
+    <message>
+      <source>Standard</source>
+      <translation>Standard</translation>
+    </message>
+    <message>
+      <source>Full (as the paper)</source>
+      <translation>Voll (wie im Artikel)</translation>
+    </message>
+    <message>
+      <source>Best for the budget</source>
+      <translation>Das Beste für das Budget</translation>
     </message>
     <message>
       <source>The run ends after this time with what it has.</source>
@@ -2174,18 +2194,6 @@
     <message>
       <source>Device</source>
       <translation>Gerät</translation>
-    </message>
-    <message>
-      <source>Draft</source>
-      <translation>Entwurf</translation>
-    </message>
-    <message>
-      <source>Standard</source>
-      <translation>Standard</translation>
-    </message>
-    <message>
-      <source>Full (as the paper)</source>
-      <translation>Voll (wie im Artikel)</translation>
     </message>
     <message>
       <source>Automatic</source>
@@ -2206,6 +2214,10 @@
     <message>
       <source>Measuring what the clip calls for …</source>
       <translation>Es wird gemessen, was der Clip verlangt …</translation>
+    </message>
+    <message>
+      <source>no limit</source>
+      <translation>unbegrenzt</translation>
     </message>
     <message>
       <source>That is more than this machine has free: choose a smaller preset.</source>
@@ -2348,10 +2360,6 @@
       <translation>{count} Paare, Median {median:.2f} px, Zustände verschieden in {share:.1f} %</translation>
     </message>
     <message>
-      <source>px at 256</source>
-      <translation>px bei 256</translation>
-    </message>
-    <message>
       <source>Follow through the scene</source>
       <translation>Durch die Szene verfolgen</translation>
     </message>
@@ -2370,6 +2378,10 @@
     <message>
       <source>Tracks, or the scene of another run</source>
       <translation>Spuren oder die Szene eines anderen Laufs</translation>
+    </message>
+    <message>
+      <source>px at 256</source>
+      <translation>px bei 256</translation>
     </message>
     <message>
       <source>Tracks</source>
