@@ -57,6 +57,7 @@ class RunConfig:
     background_gaussians: int = 12000  # upper bound
     lift_steps: int = 100  # static lift, per run (all objects at once)
     joint_steps: int = 700  # joint steps over all frames
+    settle_steps: int = 150  # of a background that stands still, before all others (optimise/still.py)
     frames_per_step: int = 3  # frames splatted per joint step
     budget_seconds: float = 600.0  # the run ends here at the latest, with what it has
     clock: Literal["wall", "cpu"] = "wall"  # which seconds the budget counts; CPU seconds on a machine that others use
@@ -94,13 +95,13 @@ class RunConfig:
 PRESETS: dict[str, RunConfig] = {
     "draft": RunConfig(
         preset="draft", short_side=224, gaussians_per_object=2000, background_gaussians=14000, lift_steps=60,
-        joint_steps=240, frames_per_step=2, budget_seconds=70.0, plane_resolution=24, plane_channels=8,
+        joint_steps=240, settle_steps=60, frames_per_step=2, budget_seconds=70.0, plane_resolution=24, plane_channels=8,
         densify_every=40,
     ),
     "standard": RunConfig(prior="embedded"),
     "full": RunConfig(
         preset="full", short_side=480, gaussians_per_object=15000, background_gaussians=60000, lift_steps=1000,
-        joint_steps=40 * 32, frames_per_step=8, budget_seconds=math.inf, plane_resolution=64,
+        joint_steps=40 * 32, settle_steps=400, frames_per_step=8, budget_seconds=math.inf, plane_resolution=64,
         plane_levels=(1, 2, 4, 8), plane_channels=32, prior="embedded",
     ),
 }  # fmt: skip
@@ -155,6 +156,7 @@ _RANGES: dict[str, tuple[float, float]] = {
     "background_gaussians": (0, 2_000_000),
     "lift_steps": (0, 100_000),
     "joint_steps": (0, 10_000_000),
+    "settle_steps": (0, 100_000),
     "frames_per_step": (1, 64),
     "budget_seconds": (1.0, math.inf),
     "motion_bases": (1, 64),

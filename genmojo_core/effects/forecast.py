@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,12 +19,14 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.config import RunConfig
 from genmojo_core.effects.difficulty import Difficulty, difficulty
 from genmojo_core.effects.plan import EffectPlan
+from genmojo_core.effects.still import window_share
 
 if TYPE_CHECKING:
     from genmojo_core.effects.machine import Machine
 
 REFERENCE_STEP_MS = 62.0  # CPU ms of a step of optimise/calibrate.py on the reference machine
 MOTION_SHARE = 0.4  # of the budget: most that the search for motion may take (optimise/run.py)
+SETTLE_SHARE = 0.1  # of the budget: most that fitting a still background may take (optimise/still.py)
 LIFT_SHARE = 0.15  # of a paced run's time after the motion (optimise/schedule.py)
 LIFT_WORTH = 0.3  # of a joint step: what a step of the static lift does for the result
 START_SHARE = 0.8  # of the allowed Gaussians that there are on average over a run
@@ -48,6 +50,8 @@ class Work:
         frames, objects: of the clip. views: frames splatted per step. pixels: of a frame as optimised.
         channels: of a rendering. moving: Gaussians of all objects. total: with the background's. bends: objects have
         deformation fields. prior: objects shown to the prior per step. aspect: long side by short side.
+        window: share of the pixels that a step looks at. settled: Gaussians of a background that stands still and is
+        fitted once (optimise/still.py); they are not in `total`.
     """
 
     frames: int
@@ -60,6 +64,8 @@ class Work:
     bends: bool
     prior: int
     aspect: float
+    window: float = 1.0
+    settled: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -94,7 +100,8 @@ class Forecast:
     Args:
         seconds: by the run's own clock. decibel: foreground PSNR. *_error: root mean square errors of both.
         steps: it will get to. factor: seconds that its clock counts per CPU second of the reference machine.
-        clip: the difficulty that it rests on; with `factor` it can be foretold anew for other settings.
+        clip: the difficulty that it rests on; with `factor` and `window` it can be foretold anew for other settings.
+        window: share of the pixels round the objects where the background is still, else None (`window_share`).
     """
 
     seconds: float
@@ -104,30 +111,44 @@ class Forecast:
     steps: float
     factor: float
     clip: Difficulty
+    window: float | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         return asdict(self)
 
 
-def work_of(size: tuple[int, int], frames: int, objects: int, on: Collection[str], config: RunConfig) -> Work:
-    """The work of a step for a clip of (width, height) pixels as optimised, with the effects that are on."""
+def work_of(
+    size: tuple[int, int],
+    frames: int,
+    objects: int,
+    on: Collection[str],
+    config: RunConfig,
+    window: float | None = None,
+) -> Work:
+    """The work of a step for a clip of (width, height) pixels as optimised, with the effects that are on.
+
+    window: `window_share`: a step looks at no more where the background stands still; None: at whole frames always.
+    """
     objects = max(objects, 1)
     moving = START_SHARE * config.gaussians_per_object * objects
     background = config.background_gaussians if "background" in on else 0
     channels = 3 + (objects if "instance_labels" in on else 1) + (2 if "flow" in on else 0)
     shown = (config.prior_objects or objects) if "unseen_views" in on else 0
+    changes = {"camera_motion", "appearance_change"} & set(on)
+    still = window is not None and bool(background) and frames > 1 and not changes
     return Work(frames, objects, min(config.frames_per_step, frames), size[0] * size[1], channels, moving,
-                moving + background, "non_rigid_motion" in on, min(shown, objects),
-                max(size) / max(min(size), 1))  # fmt: skip
+                moving + (0 if still else background), "non_rigid_motion" in on, min(shown, objects),
+                max(size) / max(min(size), 1), window if window is not None and still else 1.0,
+                background if still else 0.0)  # fmt: skip
 
 
 def step_features(work: Work, deform: bool = True) -> np.ndarray:  # (5,)
     """What the CPU time of one step is linear in (STEP_NAMES); the static lift deforms nothing."""
     bending = work.moving if work.bends and deform else 0.0
     return np.array([
-        work.views * work.pixels * work.channels / 1e6, work.views * work.total / 1e3, work.views * bending / 1e3,
-        float(work.prior), float(work.objects),
+        work.views * work.window * work.pixels * work.channels / 1e6, work.views * work.total / 1e3,
+        work.views * bending / 1e3, float(work.prior), float(work.objects),
     ])  # fmt: skip
 
 
@@ -149,19 +170,22 @@ def decibel_features(clip: Difficulty, work: Work, steps: tuple[float, float], p
 
 
 def cpu_seconds(work: Work, config: RunConfig, model: Model = MODEL) -> dict[str, float]:
-    """CPU seconds on the reference machine: of the motion, of one lift step and of one joint step."""
+    """CPU seconds on the reference machine: of motion and settling, of one lift step and of one joint step."""
     step = np.array(model.step)
+    fitting = np.array([work.pixels * 3 / 1e6, work.settled / 1e3, 0.0, 0.0, 0.0])
+    settle = config.settle_steps * float(fitting @ step) / 1000 if work.settled else 0.0
     motion = math.exp(float(motion_features(work) @ np.array(model.motion))) if work.frames > 1 else 0.0
-    return {"motion": motion, "lift": float(step_features(work, False) @ step) / 1000,
+    return {"motion": motion, "settle": settle, "lift": float(step_features(work, False) @ step) / 1000,
             "joint": float(step_features(work, work.frames > 1) @ step) / 1000}  # fmt: skip
 
 
 def forecast(clip: Clip, plan: EffectPlan, config: RunConfig, machine: Machine, model: Model = MODEL) -> Forecast:
     """Foretell a run on a completed clip, held at the size to optimise, on this machine as busy as it is now."""
     on = [effect.name for effect in plan.effects if effect.on]
-    work = work_of(clip.size, len(clip), clip.objects, on, config)
+    window = window_share(clip)
+    work = work_of(clip.size, len(clip), clip.objects, on, config, window)
     factor = (1.0 if config.clock == "cpu" else machine.wall_now()) / machine.speed
-    return foretold(work, difficulty(clip), config, factor, model)
+    return replace(foretold(work, difficulty(clip), config, factor, model), window=window)
 
 
 def foretold(work: Work, clip: Difficulty, config: RunConfig, factor: float, model: Model = MODEL) -> Forecast:
@@ -169,7 +193,8 @@ def foretold(work: Work, clip: Difficulty, config: RunConfig, factor: float, mod
     cost = {name: factor * value for name, value in cpu_seconds(work, config, model).items()}
     budget = config.budget_seconds
     motion = min(cost["motion"], MOTION_SHARE * budget)
-    left = budget - motion
+    settle = min(cost["settle"], SETTLE_SHARE * budget)
+    left = budget - motion - settle
     if config.paced:
         lift = LIFT_SHARE * left / cost["lift"]
         joint = (1 - LIFT_SHARE) * left / cost["joint"]
@@ -177,7 +202,7 @@ def foretold(work: Work, clip: Difficulty, config: RunConfig, factor: float, mod
     else:
         lift = min(config.lift_steps, left / cost["lift"])
         joint = min(config.joint_steps, max(left - lift * cost["lift"], 0.0) / cost["joint"])
-        seconds = motion + lift * cost["lift"] + joint * cost["joint"]
+        seconds = motion + settle + lift * cost["lift"] + joint * cost["joint"]
     features = decibel_features(clip, work, (lift, joint), config.gaussians_per_object)
     limited = seconds >= 0.99 * budget
     error = 0.0 if limited else model.seconds_error * seconds

@@ -50,7 +50,7 @@ class Outcome:
 def small_config(**changes: Any) -> RunConfig:
     """A run of seconds with everything in it that a long one has."""
     settings: dict[str, Any] = {
-        "gaussians_per_object": 120, "background_gaussians": 200, "lift_steps": 5, "joint_steps": 10,
+        "gaussians_per_object": 120, "background_gaussians": 200, "lift_steps": 5, "joint_steps": 10, "settle_steps": 5,
         "budget_seconds": 1e6, "plane_resolution": 8, "plane_levels": (1,), "plane_channels": 8, "field_width": 16,
         "motion_bases": 3, "densify_every": 4, "neighbours": 5, "frames_per_step": 2, "short_side": 32,
     }  # fmt: skip

@@ -56,5 +56,5 @@ def reference_steps() -> list[tuple[float, float]]:
     made, _ = synthetic.generate(replace(spec("crossing-shapes"), frames=6, size=(224, 126)))
     config = preset("draft", short_side=126, gaussians_per_object=1000, background_gaussians=4000)
     clip = complete(made)
-    run = Run(clip, decide.plan(clip, config), config)
+    run = Run(clip, decide.plan(clip, config, {"camera_motion": True}), config)  # whole frames in every step
     return run.timed_steps(_WARM + _STEPS)[_WARM:]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -65,7 +64,8 @@ def _packed(target: FrameTargets, layout: Layout, wanted: Wanted) -> tuple[Any, 
     wide = -(-width // 8) * 8
     inside = (target.labels > 0).float()
     seen_in, seen_out = inside * target.seen, (1.0 - inside) * target.seen
-    weight_in, weight_out = (seen / seen.sum().clamp(min=1.0) for seen in (seen_in, seen_out))
+    weight_in = seen_in / seen_in.sum().clamp(min=1.0)
+    weight_out = seen_out / (seen_out.sum() + target.beyond).clamp(min=1.0)
     weight = weight_in + weight_out
     color = weight if wanted.background else weight_in
     planes = torch.cat([target.rgb.permute(2, 0, 1), torch.stack([
@@ -81,7 +81,7 @@ def _packed(target: FrameTargets, layout: Layout, wanted: Wanted) -> tuple[Any, 
         padded(planes.numpy(), wide).copy(), places(pixels), np.cumsum([0, *(len(one) for one in lists)]),
         target.depth.reshape(-1)[pixels].numpy(), places(flowing), target.flow.reshape(-1, 2)[flowing].numpy(),
     )  # fmt: skip
-    unit = 0.01 * math.hypot(height, width)
+    unit = 0.01 * target.diagonal
     terms = Terms(height, wide, layout.labels, wanted.labels, layout.flow, target.depth_scaled, unit)
     target.kept[key] = packed, terms
     return packed, terms

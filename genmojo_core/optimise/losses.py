@@ -7,8 +7,6 @@ gradient, zero where nothing is to be compared. All pixels that are void or held
 
 from __future__ import annotations
 
-import math
-
 import torch
 from torch import Tensor
 
@@ -22,14 +20,17 @@ from genmojo_core.scene.scene4d import Layout
 REACHED = 1e-3  # coverage by which an object has reached a pixel
 
 
-def masked_mean(values: Tensor, weight: Tensor) -> Tensor:
-    """Weighted mean; 0 (differentiable) when no weight is left."""
-    return (values * weight).sum() / weight.sum().clamp(min=1.0)
+def masked_mean(values: Tensor, weight: Tensor, beyond: float = 0.0) -> Tensor:
+    """Weighted mean; 0 (differentiable) when no weight is left. `beyond`: weight of zeros that count besides."""
+    return (values * weight).sum() / (weight.sum() + beyond).clamp(min=1.0)
 
 
-def balanced(error: Tensor, inside: Tensor, seen: Tensor) -> Tensor:  # (H, W) each
-    """Mean error inside plus mean error outside a mask, each over its own seen pixels (METHOD.md section 2, Lbal)."""
-    return masked_mean(error, inside * seen) + masked_mean(error, (1.0 - inside) * seen)
+def balanced(error: Tensor, inside: Tensor, seen: Tensor, beyond: float = 0.0) -> Tensor:  # (H, W) each
+    """Mean error inside plus mean error outside a mask, each over its own seen pixels (METHOD.md section 2, Lbal).
+
+    beyond: pixels outside the mask that are not looked at because their error cannot change, and counts as none.
+    """
+    return masked_mean(error, inside * seen) + masked_mean(error, (1.0 - inside) * seen, beyond)
 
 
 def color_loss(rendering: Rendering, target: FrameTargets, inside: Tensor, has_background: bool) -> Tensor:
@@ -37,7 +38,7 @@ def color_loss(rendering: Rendering, target: FrameTargets, inside: Tensor, has_b
     difference = rendering.features[..., :3] - target.rgb
     error = 0.5 * difference.abs().mean(-1) + 5.0 * (difference * difference).mean(-1)
     if has_background:
-        return balanced(error, inside, target.seen)
+        return balanced(error, inside, target.seen, target.beyond)
     return masked_mean(error, inside * target.seen)
 
 
@@ -51,8 +52,8 @@ def similarity_loss(similar: Tensor, target: FrameTargets) -> Tensor:
     if "windows" not in target.kept:
         inside = (target.labels > 0).float()
         whole = whole_windows(target.seen[None] > 0)[0].float()
-        parts = (inside * whole, (1.0 - inside) * whole)
-        target.kept["windows"] = sum(part / part.sum().clamp(min=1.0) for part in parts)
+        own, rest = inside * whole, (1.0 - inside) * whole
+        target.kept["windows"] = own / own.sum().clamp(min=1.0) + rest / (rest.sum() + target.beyond).clamp(min=1.0)
     weight = target.kept["windows"].to(similar)
     return weight.sum() - (weight * similar).sum()
 
@@ -60,7 +61,7 @@ def similarity_loss(similar: Tensor, target: FrameTargets) -> Tensor:
 def coverage_loss(rendering: Rendering, layout: Layout, target: FrameTargets, inside: Tensor) -> Tensor:
     """Squared error of the objects' joint coverage (their labels' sum) against the union of masks, balanced."""
     coverage = rendering.features[..., 3 : 3 + layout.labels].sum(-1)
-    return balanced((coverage - inside) ** 2, inside, target.seen)
+    return balanced((coverage - inside) ** 2, inside, target.seen, target.beyond)
 
 
 def miss_loss(rendering: Rendering, layout: Layout, target: FrameTargets, centres: Tensor) -> Tensor:
@@ -72,7 +73,6 @@ def miss_loss(rendering: Rendering, layout: Layout, target: FrameTargets, centre
     Args:
         centres: (objects, 2) raster pixels.
     """
-    height, width = target.labels.shape
     missed, expected = [], []
     for k in range(layout.labels):
         mask = (target.labels == k + 1) & (target.seen > 0)
@@ -82,7 +82,7 @@ def miss_loss(rendering: Rendering, layout: Layout, target: FrameTargets, centre
             expected.append(torch.stack([columns.float().mean(), rows.float().mean()]) + 0.5)
     if not missed:
         return centres.sum() * 0.0
-    distance = safemath.safe_norm(centres[missed] - torch.stack(expected)) / (0.01 * math.hypot(height, width))
+    distance = safemath.safe_norm(centres[missed] - torch.stack(expected)) / (0.01 * target.diagonal)
     return torch.where(distance < 1.0, 0.5 * distance * distance, distance - 0.5).sum() / layout.labels
 
 
@@ -93,7 +93,7 @@ def label_loss(rendering: Rendering, layout: Layout, target: FrameTargets) -> Te
     probabilities = torch.cat([background, labels], dim=-1)
     own = probabilities.gather(-1, target.labels.clamp(max=layout.labels)[..., None])[..., 0]
     foreground = (target.labels > 0).float()
-    return balanced(-safemath.safe_log(own, LABEL_FLOOR), foreground, target.seen)
+    return balanced(-safemath.safe_log(own, LABEL_FLOOR), foreground, target.seen, target.beyond)
 
 
 def depth_loss(rendering: Rendering, layout: Layout, target: FrameTargets) -> Tensor:
@@ -132,8 +132,7 @@ def flow_loss(rendering: Rendering, layout: Layout, target: FrameTargets) -> Ten
     pixels, coverage = target.flow_pixels[coverage > SHOWN], coverage[coverage > SHOWN]
     if not len(pixels):
         return rendering.features.sum() * 0.0
-    height, width = target.labels.shape
-    unit = 0.01 * (height * height + width * width) ** 0.5
+    unit = 0.01 * target.diagonal
     expected = target.flow.reshape(-1, 2)[pixels] * coverage[:, None]
     error = (features[pixels, start : start + 2] - expected).abs().sum(-1) / unit
     return error.clamp(max=FLOW_LIMIT).mean()

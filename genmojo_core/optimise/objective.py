@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
+from genmojo_core.clip.cameras import View
 from genmojo_core.config import LossWeights
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.errors import GenmojoError
@@ -89,14 +90,13 @@ class Objective:
         held_out, foreground, light = [], [], []
         for t in frames:
             after = states.get(t + 1)
-            target = self.targets.frame(t)
-            rendering = self._render(t, states[t], after)
+            target, rendering = self._compared(t, states[t], after)
             with torch.set_grad_enabled(self.compares_windows):
                 similar = losses.similarity(rendering, target)
             for name, value in self._data_terms(t, states[t], rendering, target, similar).items():
                 terms[name] = terms.get(name, 0.0) + value / len(frames)
             shown = rendering.features[..., :3].detach()
-            light.append((t, *_levels(shown, target)))
+            light.append((t, *self._levels(t, rendering, target)))
             squared = ((shown - target.rgb) ** 2).mean(-1)
             cut = target.held_out
             held_out.append(HeldOut(t, float(squared[cut].sum()), float(similar.detach()[cut].sum()), int(cut.sum())))
@@ -113,14 +113,26 @@ class Objective:
     def picture(self, t: int, deform: bool) -> Tensor:
         """Colours (H, W, 3) of frame t as the scene stands, whether or not the frame is in any loss."""
         states = self.scene.states([t, min(t + 1, self.frames - 1)], deform)
-        return self._render(t, states[0], states[1]).features[..., :3]
+        return self._render(t, states[0], states[1] if t + 1 < self.frames else None).features[..., :3]
+
+    def _compared(
+        self, t: int, now: list[ObjectState], after: list[ObjectState] | None
+    ) -> tuple[FrameTargets, Rendering]:
+        """What is compared in frame t: its targets and what the scene shows there."""
+        return self.targets.frame(t), self._render(t, now, after)
 
     def _render(self, t: int, now: list[ObjectState], after: list[ObjectState] | None) -> Rendering:
+        return self._splatted(t, now, after, self.scene.cameras.view(t))
+
+    def _splatted(
+        self, t: int, now: list[ObjectState], after: list[ObjectState] | None, view: View, with_background: bool = True
+    ) -> Rendering:
+        """One splat of a view; raises GenmojoError("budget") with the name of the object that fills it."""
         layout = self.scene.layout
-        c = self.scene.compose(t, now, after if layout.flow else None)
+        c = self.scene.compose(t, now, after if layout.flow else None, with_background)
         splats = Splats(c.means, c.quats, c.scales, c.opacities, c.features)
         try:
-            return self.splat(splats, self.scene.cameras.view(t), detached_channels=2 if layout.flow else 0)
+            return self.splat(splats, view, detached_channels=2 if layout.flow else 0)
         except GenmojoError as error:
             if error.code != "budget":
                 raise
@@ -128,6 +140,12 @@ class Objective:
             name = "the background" if widest is None else self.scene.objects[now.index(widest)].name
             raise GenmojoError("budget", f"the Gaussians of {name} fill the view: {error.what}", "",
                                "go on from the last checkpoint with smaller learning rates") from error  # fmt: skip
+
+    def _levels(self, t: int, rendering: Rendering, target: FrameTargets) -> tuple[Tensor, Tensor]:
+        """Mean colours (3,) of frame t as shown and as wanted, over the pixels that count."""
+        shown, seen = rendering.features[..., :3].detach(), target.seen[..., None]
+        total = target.seen.sum().clamp(min=1.0)
+        return (shown * seen).sum((0, 1)) / total, (target.rgb * seen).sum((0, 1)) / total
 
     @property
     def compares_windows(self) -> bool:
@@ -143,7 +161,8 @@ class Objective:
         if self.compares_windows:
             terms["ssim"] = losses.similarity_loss(similar, target)
         if now:
-            terms["alpha"] = terms["alpha"] + losses.miss_loss(rendering, layout, target, self._centres(t, now))
+            centres = self._centres(t, now) - target.corner()
+            terms["alpha"] = terms["alpha"] + losses.miss_loss(rendering, layout, target, centres)
         if self.order:
             terms["depth_order"] = self._order_term(t, now, rendering, target)
         return terms
@@ -157,7 +176,7 @@ class Objective:
         means = torch.cat([s.means for s in now])
         owner = torch.cat([torch.full((len(s.means),), k) for k, s in enumerate(now)])
         pixels, depths = safemath.project(means, self.scene.w2c[t], self.scene.K[t], self.scene.cameras.near)
-        return losses.order_loss(pixels, depths, owner, rendering, target, self.scene.layout)
+        return losses.order_loss(pixels - target.corner(), depths, owner, rendering, target, self.scene.layout)
 
     def _motion_terms(
         self, frames: list[int], states: dict[int, list[ObjectState]], generator: torch.Generator
@@ -201,10 +220,3 @@ class Objective:
                 value = losses.track_loss(pixels, tracks.xy[:, t], tracks.conf[:, t], diagonal)
                 total = total + value / (len(frames) * len(self.tracks))
         return total
-
-
-def _levels(shown: Tensor, target: FrameTargets) -> tuple[Tensor, Tensor]:
-    """Mean colours (3,) of a picture and of its target over the pixels that count."""
-    total = target.seen.sum().clamp(min=1.0)
-    return ((shown * target.seen[..., None]).sum((0, 1)) / total,
-            (target.rgb * target.seen[..., None]).sum((0, 1)) / total)  # fmt: skip

@@ -44,7 +44,7 @@ from genmojo_core.optimise.held_out import held_frame_psnr, held_frames, without
 from genmojo_core.optimise.lift import Lifted, lift, track_supervision
 from genmojo_core.optimise.live import LiveFrame, live_frame
 from genmojo_core.optimise.motion import ObjectMotion, initial_motion
-from genmojo_core.optimise.objective import Objective, Outcome, TrackSupervision
+from genmojo_core.optimise.objective import Outcome, TrackSupervision
 from genmojo_core.optimise.planned import planned_clip
 from genmojo_core.optimise.progress import Clock, Progress
 from genmojo_core.optimise.schedule import (
@@ -57,7 +57,7 @@ from genmojo_core.optimise.schedule import (
     start_rate,
     wear_factor,
 )
-from genmojo_core.optimise.separate import SeparateObjective
+from genmojo_core.optimise.still import objective_for, settle
 from genmojo_core.optimise.targets import Targets
 from genmojo_core.optimise.unseen import Moment, UnseenViews
 from genmojo_core.optimise.working_space import working_space
@@ -233,6 +233,7 @@ class Run:
         for message in lifted.warnings:
             yield Warned(*self.clock.now(), "object_not_visible", message)
         self._build(lifted, track_supervision(lifted, motions) if self.plan.on("track_supervision") else [])
+        yield from settle(self)
         yield from self._ask_prior(lifted, motions)
         self._start()
         yield Preview(*self.clock.now(), "motion", self.progress.step, self.reference, self._reference_psnr())
@@ -264,10 +265,8 @@ class Run:
         self.scene = lifted.scene
         self.reference = sorted(o.ref_frame for o in self.scene.objects)[len(self.scene.objects) // 2]
         self.targets = Targets(self.clip, lifted.rows, self.config.held_out_share, self.config.seed)
-        joint = self.plan.get("joint_occlusion")
-        kind = SeparateObjective if joint.overridden and not joint.on else Objective
-        self.objective = kind(self.scene, self.targets, self.plan, self.config.weights, choose(self.config.device),
-                              tracks, self.config.neighbours)  # fmt: skip
+        self.objective = objective_for(self)(self.scene, self.targets, self.plan, self.config.weights,
+                                             choose(self.config.device), tracks, self.config.neighbours)  # fmt: skip
         self.generator = torch.Generator().manual_seed(self.config.seed)
 
     def _ask_prior(self, lifted: Lifted, motions: Sequence[Moves]) -> Iterator[Event]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import math
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import torch
@@ -14,12 +15,38 @@ BLOCK = 4  # side of a held-out block, pixels
 
 
 @dataclass(frozen=True)
+class Window:
+    """A part of the picture, pixels; right and bottom exclusive."""
+
+    left: int
+    top: int
+    right: int
+    bottom: int
+
+    @property
+    def width(self) -> int:
+        """Pixels across."""
+        return self.right - self.left
+
+    @property
+    def height(self) -> int:
+        """Pixels down."""
+        return self.bottom - self.top
+
+    def slices(self) -> tuple[slice, slice]:
+        """Rows and columns of it."""
+        return slice(self.top, self.bottom), slice(self.left, self.right)
+
+
+@dataclass(frozen=True)
 class FrameTargets:
     """Targets of one frame; H x W at the optimised size.
 
     rgb (H, W, 3) 0..1; labels (H, W) int64, 0 background, k + 1 object k; seen (H, W) float, 1 where the pixel counts
     (neither void nor held out); held_out (H, W) bool; depth (H, W) and depth_seen (H, W) float; flow (H, W, 2) px to
     the next frame and flow_seen (H, W) float. `depth_scaled` tells a measured depth from a guess.
+    window: the part of the frame that all this is cut from (None: the frame as a whole); beyond: background pixels that
+    count outside of it; diagonal: of the whole frame, pixels.
     depth_pixels: for every label, flat indices of its pixels with depth; flow_pixels: flat indices of foreground with
     flow. They spare the terms that look at a few pixels a walk over the whole image. kept: what terms worked out once.
     """
@@ -33,8 +60,25 @@ class FrameTargets:
     flow: Tensor
     flow_seen: Tensor
     depth_scaled: bool
+    window: Window | None = None
+    beyond: float = 0.0
+    diagonal: float = 0.0
+
+    def cut(self, window: Window) -> FrameTargets:
+        """The targets inside a window."""
+        rows, columns = window.slices()
+        names = ("rgb", "labels", "seen", "held_out", "depth", "depth_seen", "flow", "flow_seen")
+        parts = {name: getattr(self, name)[rows, columns].contiguous() for name in names}
+        free = ((self.labels == 0) * self.seen).sum() - ((parts["labels"] == 0) * parts["seen"]).sum()
+        return replace(self, **parts, window=window, beyond=float(free), diagonal=self.diagonal)
+
+    def corner(self) -> Tensor:  # (2,)
+        """Left and top of the window in pixels of the frame."""
+        return torch.tensor([0.0, 0.0] if self.window is None else [float(self.window.left), float(self.window.top)])
 
     def __post_init__(self) -> None:
+        if not self.diagonal:
+            object.__setattr__(self, "diagonal", math.hypot(*self.labels.shape))
         labels = self.labels.reshape(-1)
         has_depth = self.depth_seen.reshape(-1) > 0
         indices = [torch.nonzero((labels == k) & has_depth)[:, 0] for k in range(1, int(labels.max()) + 1)]

@@ -148,11 +148,14 @@ class Scene4D(nn.Module):
         by_object = [o.states(frames, deform) for o in self.objects]
         return [[states[b] for states in by_object] for b in range(len(frames))]
 
-    def compose(self, t: int, now: list[ObjectState], after: list[ObjectState] | None = None) -> Composed:
+    def compose(
+        self, t: int, now: list[ObjectState], after: list[ObjectState] | None = None, with_background: bool = True
+    ) -> Composed:
         """Everything in world space at frame t.
 
         Args:
             now: object states at t. after: states at t + 1, for the flow channels (None: flow 0).
+            with_background: False leaves it out.
         """
         parts: list[tuple[Tensor, ...]] = []
         gain = None if self.gain is None else self.gain(t)
@@ -162,13 +165,20 @@ class Scene4D(nn.Module):
             parts.append(
                 (state.means, state.quats, state.scales, model.gaussians.opacities(), self._features(rgb, k, flow))
             )
-        if self.background is not None:
+        if self.background is not None and with_background:
             g = self.background
             rgb = 0.5 + SH_C0 * g.dc
             rgb = rgb if gain is None else rgb * gain
             columns = (g.means, g.quats, g.scales(), g.opacities(), self._features(rgb, None, None))
             parts.append(_held(columns, g.invented))
         return Composed(*(torch.cat(columns) for columns in zip(*parts, strict=True)))
+
+    def background_alone(self) -> Composed:
+        """The background in world space, its colours as features, without light. ValueError where there is none."""
+        if self.background is None:
+            raise ValueError("the scene has no background")
+        g = self.background
+        return Composed(*_held((g.means, g.quats, g.scales(), g.opacities(), 0.5 + SH_C0 * g.dc), g.invented))
 
     def _features(self, rgb: Tensor, k: int | None, flow: Tensor | None) -> Tensor:
         columns = [rgb]

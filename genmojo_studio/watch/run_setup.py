@@ -162,7 +162,8 @@ class RunSetup(QWidget):
             return ""
         config = self.config()
         on = [row["name"] for row in self.effects.chosen() if row["on"]]
-        work = work_of(fitted(clip.source_size, config.short_side), len(clip), clip.objects, on, config)
+        size, window = fitted(clip.source_size, config.short_side), basis.get("window")
+        work = work_of(size, len(clip), clip.objects, on, config, window)
         told = foretold(work, Difficulty(**basis["clip"]), config, float(basis["factor"]))
         return tr("Expected: {time} (± {spread}), {psnr:.1f} dB (± {error:.1f}), ").format(
             time=forecast.spoken(told.seconds),

@@ -10,7 +10,7 @@ import pytest
 from genmojo_core.config import preset
 from genmojo_core.effects import forecast, machine
 from genmojo_core.effects.difficulty import Difficulty, difficulty
-from genmojo_core.effects.forecast import Model, foretold, step_features, work_of
+from genmojo_core.effects.forecast import Model, cpu_seconds, foretold, step_features, work_of
 from genmojo_core.effects.machine import Machine
 from genmojo_core.optimise import calibrate
 from tests.benchmarks.forecast import non_negative, ridge
@@ -53,6 +53,17 @@ def test_what_is_off_costs_nothing():
     full = step_features(made(config))
     bare = step_features(work_of((200, 100), 24, 2, [], config))
     assert (bare <= full).all() and bare[2] == 0 and bare[3] == 0
+
+
+def test_a_background_that_stands_still_is_fitted_once_and_steps_look_at_a_window():
+    config = preset("draft", lift_steps=10, joint_steps=100, budget_seconds=1e6)
+    still = work_of((200, 100), 24, 2, ON, config, 0.25)
+    cost, whole = cpu_seconds(still, config, MODEL), cpu_seconds(made(config), config, MODEL)
+    assert cost["joint"] < whole["joint"] and cost["settle"] > whole["settle"] == 0.0
+    told = foretold(still, CLIP, config, 1.0, MODEL)
+    assert told.seconds == pytest.approx(24.0 + cost["settle"] + 10 * cost["lift"] + 100 * cost["joint"])
+    moving = work_of((200, 100), 24, 2, [*ON, "camera_motion"], config, 0.25)
+    assert cpu_seconds(moving, config, MODEL) == whole
 
 
 def test_the_fit_finds_the_costs_that_made_the_rows():

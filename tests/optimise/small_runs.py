@@ -21,7 +21,8 @@ def small_clip(name: str = "crossing-shapes", frames: int = 5, width: int = 80) 
 def small_config(**changes: Any) -> RunConfig:
     settings = {
         "gaussians_per_object": 200, "background_gaussians": 300, "lift_steps": 6, "joint_steps": 10,
-        "budget_seconds": 1e6, "plane_resolution": 8, "plane_levels": (1,), "plane_channels": 8, "field_width": 16,
+        "settle_steps": 10, "budget_seconds": 1e6, "plane_resolution": 8, "plane_levels": (1,), "plane_channels": 8,
+        "field_width": 16,
         "motion_bases": 4, "densify_every": 5, "neighbours": 6, "frames_per_step": 3, "short_side": 45,
     }  # fmt: skip
     return preset("draft", **{**settings, **changes})

@@ -27,7 +27,13 @@ def steps(events: list[Event]) -> list[Step]:
 def test_a_run_tells_its_stages_and_ends_with_a_better_scene(clip: Clip) -> None:
     run = small_run(clip, BENDING, lift_steps=30, joint_steps=30, held_out_share=0.2)
     events = list(run)
-    assert [e.stage for e in events if isinstance(e, StageStarted)] == ["first scene", "motion", "lift", "joint"]
+    assert [e.stage for e in events if isinstance(e, StageStarted)] == [
+        "first scene",
+        "motion",
+        "background",
+        "lift",
+        "joint",
+    ]
     first = next(i for i, e in enumerate(events) if isinstance(e, Preview))
     assert first < next(i for i, e in enumerate(events) if isinstance(e, Step))  # a scene before the first step
     assert isinstance(events[-1], Finished)
