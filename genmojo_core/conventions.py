@@ -24,6 +24,8 @@ import numpy as np
 DILATION = 0.3  # px^2 added to every projected covariance, at the size the scene was optimised at
 SH_C0 = 0.28209479177387814  # value of the constant spherical harmonic: rgb = 0.5 + SH_C0 * dc
 
+SHADE_LIMIT = 1.5  # of the logarithm of what shading does to a colour
+
 
 def normalise_quaternions(quats: np.ndarray) -> np.ndarray:  # (..., 4) wxyz
     """Unit quaternions; a quaternion shorter than 1e-12 or not finite becomes the identity.
@@ -94,6 +96,17 @@ def rgb_to_dc(rgb: np.ndarray) -> np.ndarray:
 def dc_to_rgb(dc: np.ndarray) -> np.ndarray:
     """Colour (not clamped) of a constant spherical-harmonic coefficient."""
     return 0.5 + SH_C0 * np.asarray(dc)
+
+
+def harmonics(normals: np.ndarray) -> np.ndarray:  # (N, 3) -> (N, 8)
+    """Real spherical harmonics of order 1 and 2 of unit vectors, each about as large as x (not normalised)."""
+    x, y, z = np.moveaxis(np.asarray(normals, dtype=np.float64), -1, 0)
+    return np.stack([x, y, z, x * y, y * z, z * x, 1.5 * z * z - 0.5, 0.5 * (x * x - y * y)], axis=-1)
+
+
+def shade_factors(before: np.ndarray, now: np.ndarray, light: np.ndarray) -> np.ndarray:  # (N, 3), (N, 3), (8,)
+    """(N,) what colours are multiplied by when unit world normals turn from `before` to `now` (scene/shading.py)."""
+    return np.exp(np.clip((harmonics(now) - harmonics(before)) @ light, -SHADE_LIMIT, SHADE_LIMIT))
 
 
 def axis_angle_matrix(axis: np.ndarray, degrees: float) -> np.ndarray:  # (3,) -> (3, 3)

@@ -60,6 +60,7 @@ def predict(name: str, sizes: Sizes, config: RunConfig) -> tuple[float, float]:
         "non_rigid_motion": (s.views * moving * FIELD_MS, s.objects * _field_megabytes(s, config)),
         "appearance_change": (s.views * moving * FIELD_MS * 0.1 + 3 * channel / s.views,
                               _megabytes(s.frames * 3 + s.objects * config.field_width * (config.field_width + 3))),
+        "shading": (s.views * moving * SPLAT_MS, _megabytes(8)),
         "unseen_views": (s.objects * (40.0 + 128 * 128 * PIXEL_MS + s.gaussians * SPLAT_MS), 150.0),
         "instance_labels": (s.objects * channel, s.views * s.pixels * s.objects * 4 / 1e6),
         "depth_order": (channel, s.frames * s.pixels * 4 / 1e6),

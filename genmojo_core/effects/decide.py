@@ -174,6 +174,13 @@ def _appearance_change(clip: Clip, config: RunConfig, evidence: Evidence) -> Rul
                 "" if len(clip) > 1 else "a single frame has one light")  # fmt: skip
 
 
+def _shading(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
+    degrees = max(evidence.turns, default=0.0)
+    said = f"An object turns by {degrees:.0f} degrees, the light does not" if degrees >= 20 else "No object turns much"
+    return Rule(degrees, "degrees", 20.0, "turned by 20 degrees, a surface gains or loses a third of the light",
+                f"{said}.", "" if len(clip) > 1 else "a single frame has one light")  # fmt: skip
+
+
 def _unseen_views(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
     installed = config.prior != "none"
     percent = 100 * max((unseen_share(sight, config.view_range) for sight in evidence.sights), default=0.0)
@@ -228,7 +235,8 @@ def _source(channel: object) -> str:
 
 _RULES: dict[str, Callable[[Clip, RunConfig, Evidence], Rule]] = {
     "joint_occlusion": _joint_occlusion, "background": _background, "camera_motion": _camera_motion,
-    "non_rigid_motion": _non_rigid_motion, "appearance_change": _appearance_change, "unseen_views": _unseen_views,
+    "non_rigid_motion": _non_rigid_motion, "appearance_change": _appearance_change, "shading": _shading,
+    "unseen_views": _unseen_views,
     "instance_labels": _instance_labels, "depth_order": _depth_order, "flow": _flow,
     "track_supervision": _track_supervision, "reappearance": _reappearance,
 }  # fmt: skip

@@ -11,7 +11,7 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.effects.light import light_change
 from genmojo_core.effects.objects import ObjectFacts, describe
 from genmojo_core.effects.occlusion import Cover, occlusion_graph
-from genmojo_core.effects.rigid import turning
+from genmojo_core.effects.rigid import turning, world_turn
 from genmojo_core.effects.sample import SHORT_SIDE, sample
 from genmojo_core.effects.shape import Bending, bending
 from genmojo_core.estimate.views import carry
@@ -39,6 +39,7 @@ class Evidence:
         corners: usual number of corners per object that flow follows (tracks of one's own count as they are).
         hidden: most frames in a row in which an object is hidden between two in which it is seen.
         sights: per object, (T, 3, 3) rotations from the object as in frame 0 to the camera, as far as flow tells.
+        turns: per object, most degrees that it is turned in the world against frame 0.
         facts: what is known about each object (at the measured size).
     """
 
@@ -54,6 +55,7 @@ class Evidence:
     corners: float
     hidden: int
     sights: tuple[np.ndarray, ...]
+    turns: tuple[float, ...]
     facts: tuple[ObjectFacts, ...]
 
 
@@ -64,6 +66,8 @@ def measure(clip: Clip) -> Evidence:
     labels = small.masks.value if small.masks is not None else np.zeros(small.frames.shape[:3], np.uint8)
     contact = np.any([one.touches for one in facts], axis=0) if facts else np.zeros(len(small), bool)
     light, covers = light_change(small), occlusion_graph(small)
+    sights = tuple(turning(small, k) for k in range(small.objects))
+    poses = np.tile(np.eye(4), (len(small), 1, 1)) if small.cameras is None else small.cameras.value.world_to_camera
     strong = light.objects[light.objects >= OBJECT_LIGHT]
     return Evidence(
         contact=float(contact.mean()),
@@ -77,7 +81,8 @@ def measure(clip: Clip) -> Evidence:
         flow=_share_inside(labels[:-1], None if small.flow is None else small.flow.valid[:-1]),
         corners=trackable(small, labels),
         hidden=max((longest_gap(one.visibility) for one in facts), default=0),
-        sights=tuple(turning(small, k) for k in range(small.objects)),
+        sights=sights,
+        turns=tuple(world_turn(sight, poses) for sight in sights),
         facts=facts,
     )
 

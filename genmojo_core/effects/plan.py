@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 EffectName = Literal[
-    "joint_occlusion", "background", "camera_motion", "non_rigid_motion", "appearance_change", "unseen_views",
-    "instance_labels", "depth_order", "flow", "track_supervision", "reappearance",
+    "joint_occlusion", "background", "camera_motion", "non_rigid_motion", "appearance_change", "shading",
+    "unseen_views", "instance_labels", "depth_order", "flow", "track_supervision", "reappearance",
 ]  # fmt: skip
 
 

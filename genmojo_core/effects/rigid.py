@@ -48,6 +48,13 @@ def turning(clip: Clip, k: int) -> np.ndarray:  # (T, 3, 3)
     return sight
 
 
+def world_turn(sight: np.ndarray, world_to_camera: np.ndarray) -> float:  # (T, 3, 3), (T, 4, 4)
+    """Most degrees that an object with such `turning` is turned in the world against how it stands in frame 0."""
+    turns = np.swapaxes(world_to_camera[:, :3, :3], 1, 2) @ sight
+    cosines = (np.einsum("tij,ij->t", turns, turns[0]) - 1.0) / 2.0
+    return float(np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0))).max())
+
+
 def _fit_window(clip: Clip, tracks: np.ndarray, span: range) -> list[np.ndarray]:
     """Rotations from the first frame of a window to each.
 

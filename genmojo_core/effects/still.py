@@ -42,7 +42,7 @@ def background_is_still(clip: Clip) -> bool:
 
 
 def window_share(clip: Clip) -> float | None:
-    """Share of the pixels that a step looks at where the background is still: those round all objects, mean over frames.
+    """Mean share of the pixels round all objects, all that a step looks at where the background is still.
 
     None where it is not: steps look at whole frames.
     """

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 
 from genmojo_core.clip.cameras import View
-from genmojo_core.conventions import dc_to_rgb, orbit_camera, quaternion_to_matrix
+from genmojo_core.conventions import dc_to_rgb, normalise_quaternions, orbit_camera, quaternion_to_matrix, shade_factors
 from genmojo_core.errors import GenmojoError
 from genmojo_core.render.cpu.rasterize import rasterize
 from genmojo_core.render.rasterizer import Splats
@@ -145,17 +145,36 @@ def short_side_size(size: tuple[int, int], short_side: int) -> tuple[int, int]:
 def _colors(scene: BakedScene, frame: Frame, look: Look) -> np.ndarray:  # (N, 3) 0..1 and more
     """Colours with the change over time that is wanted.
 
-    Light is the gain g of every channel that brings the colours of no change nearest to the frame's: least squares,
-    every Gaussian weighted by its opacity.
+    Light is the scene's shading, then the gain g of every channel that brings the colours nearest to the frame's:
+    least squares, every Gaussian weighted by its opacity.
     """
     if scene.d_dc is None or look.color_change == "all":
         return frame.rgb
     constant = dc_to_rgb(scene.dc)
     if look.color_change == "none":
         return constant
+    constant = constant * _shading(scene, frame)
     weighted = frame.opacities[:, None] * constant
     gain = (weighted * frame.rgb).sum(axis=0) / np.maximum((weighted * constant).sum(axis=0), 1e-9)
     return constant * gain
+
+
+def _shading(scene: BakedScene, frame: Frame) -> np.ndarray:  # (N, 1)
+    """What the light does to colours because objects turn under it (scene/shading.py); ones in a scene without."""
+    found = [row.get("settings") for row in scene.effects if row.get("name") == "shading" and row.get("on")]
+    if not found or not found[0]:
+        return np.ones((len(frame.means), 1))
+    own = quaternion_to_matrix(normalise_quaternions(scene.rot))
+    thin = np.argmin(scene.scale, axis=1)[:, None, None]
+    local = np.take_along_axis(own, thin, axis=2)[..., 0]
+    sign = np.where((local * scene.xyz).sum(axis=1, keepdims=True) < 0, -1.0, 1.0)
+    first = np.stack([scene.object_to_world[t, k, :, :3] for k, t in enumerate(scene.ref_frame)]).astype(np.float64)
+    first /= np.cbrt(np.linalg.det(first))[:, None, None]
+    before = np.einsum("nij,nj->ni", first[frame.object_index], sign * local)
+    now = sign * np.take_along_axis(quaternion_to_matrix(frame.quats), thin, axis=2)[..., 0]
+    factor = shade_factors(before, now, np.array([found[0][str(k)] for k in range(len(found[0]))]))
+    fixed = np.array([o.is_background for o in scene.objects])[frame.object_index]
+    return np.where(fixed, 1.0, factor)[:, None]
 
 
 def _normals(frame: Frame, view: View) -> np.ndarray:  # (N, 3)

@@ -40,7 +40,7 @@ def bake(scene: Scene4D, clip: Clip, provenance: Provenance, judged: np.ndarray 
     judged: (M, 3) rows elevation, azimuth (degrees), frame of views that a prior supervised besides the frames.
     """
     frames = len(clip)
-    parts = [_object_rows(model, frames) for model in scene.objects]
+    parts = [_object_rows(scene, model, frames) for model in scene.objects]
     objects, first = [], 0
     for i, (model, part) in enumerate(zip(scene.objects, parts, strict=True)):
         objects.append(SceneObject(model.id, model.name, PALETTE[i % len(PALETTE)], False, first, len(part["xyz"])))
@@ -54,7 +54,8 @@ def bake(scene: Scene4D, clip: Clip, provenance: Provenance, judged: np.ndarray 
     d_dc = columns.pop("d_dc")
     if scene.gain is not None:
         d_dc = _with_gain(columns["dc"], d_dc, torch.stack([scene.gain(t) for t in range(frames)]).numpy())
-    keep_color = scene.gain is not None or any(m.field is not None and m.field.shape.appearance for m in scene.objects)
+    own = any(m.field is not None and m.field.shape.appearance for m in scene.objects)
+    keep_color = scene.gain is not None or scene.shade is not None or own
     cameras = scene.cameras.resized(*clip.source_size)
     return BakedScene(
         clip.frame_index, clip.seconds, clip.source_names, tuple(objects), columns["xyz"], columns["rot"],
@@ -92,9 +93,13 @@ def _static_rows(g: Gaussians, frames: int) -> dict[str, np.ndarray]:
     }  # fmt: skip
 
 
-def _object_rows(model: ObjectModel, frames: int) -> dict[str, np.ndarray]:
-    """Rows of one object with its deformation at every frame."""
+def _object_rows(scene: Scene4D, model: ObjectModel, frames: int) -> dict[str, np.ndarray]:
+    """Rows of one object with its deformation and shading at every frame."""
     rows = _static_rows(model.gaussians, frames)
+    if scene.shade is not None:
+        for t in range(frames):
+            rgb = scene.shaded(model, model.states([t])[0]).rgb
+            rows["d_dc"][t] = ((rgb - 0.5) / SH_C0 - model.gaussians.dc).numpy()
     if model.field is None:
         return rows
     for t in range(frames):
@@ -102,7 +107,7 @@ def _object_rows(model: ObjectModel, frames: int) -> dict[str, np.ndarray]:
         rows["d_xyz"][t] = d.d_means.numpy()
         rows["rot_t"][t] = safemath.normalise(model.gaussians.quats + d.d_quats).numpy()
         rows["log_scale_t"][t] = d.d_log_scales.numpy()
-        if d.d_dc is not None:
+        if d.d_dc is not None and scene.shade is None:
             rows["d_dc"][t] = d.d_dc.numpy()
     return rows
 

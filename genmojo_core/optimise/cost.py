@@ -102,6 +102,7 @@ _PARTS: dict[str, tuple[Callable[[Objective], Patch], Callable[[Objective], floa
     "background": (lambda o: [(o.scene, "background", None)], lambda o: _parameters(o.scene.background)),
     "non_rigid_motion": (_deformation, lambda o: _parameters(*(m.field for m in o.scene.objects))),
     "appearance_change": (lambda o: [(o.scene, "gain", None)], lambda o: _parameters(o.scene.gain)),
+    "shading": (lambda o: [(o.scene, "shade", None)], lambda o: _parameters(o.scene.shade)),
     "instance_labels": (_labels, lambda o: _channels(o, o.scene.layout.labels - 1)),
     "depth_order": (lambda o: [(o, "depth", False), (o, "order", False)], _nothing),
     "flow": (lambda o: [(o.scene, "layout", Layout(o.scene.layout.labels, False))], lambda o: _channels(o, 2)),

@@ -57,6 +57,7 @@ from genmojo_core.optimise.schedule import (
     start_rate,
     wear_factor,
 )
+from genmojo_core.optimise.shading import start_shading, with_shade
 from genmojo_core.optimise.still import objective_for, settle
 from genmojo_core.optimise.targets import Targets
 from genmojo_core.optimise.unseen import Moment, UnseenViews
@@ -124,7 +125,7 @@ class Run:
         if self.changes:
             config["changes"] = [change.to_json() for change in self.changes]
         metrics = {"steps": float(self.progress.step), "seconds": self.clock.now()[0]}
-        provenance = Provenance(config, self.plan.to_json(), self.progress.curve, metrics)
+        provenance = Provenance(config, with_shade(self.plan, self.scene).to_json(), self.progress.curve, metrics)
         judged = None if self.unseen is None else self.unseen.supervised()
         return self.space.outside(bake(self.scene, self.clip, provenance, judged))
 
@@ -233,6 +234,7 @@ class Run:
         for message in lifted.warnings:
             yield Warned(*self.clock.now(), "object_not_visible", message)
         self._build(lifted, track_supervision(lifted, motions) if self.plan.on("track_supervision") else [])
+        yield from start_shading(self)
         yield from settle(self)
         yield from self._ask_prior(lifted, motions)
         self._start()

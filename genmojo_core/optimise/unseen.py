@@ -215,12 +215,13 @@ class UnseenViews:
         """Means, quats, scales, opacities and colours of one object at frame t in the prior's space."""
         own = model.id in self.completed
         with torch.set_grad_enabled(not own):
-            bent = model.states([t], deform)[0].deformation
+            state = model.states([t], deform)[0]
+            shade = 1.0 if self.scene.shade is None else self.scene.shade(*model.facing(state)).detach()
         scale, quat, origin = _object_to_prior(model, placed, t)
-        local_means, local_quats, log_scales, dc = _bent(model.gaussians, bent)
+        local_means, local_quats, log_scales, dc = _bent(model.gaussians, state.deformation)
         means = scale * safemath.rotate(quat, local_means) + origin
         quats = safemath.quaternion_multiply(quat.expand_as(local_quats), safemath.normalise(local_quats))
-        rgb = (0.5 + SH_C0 * dc) * self._light(t)
+        rgb = (0.5 + SH_C0 * dc) * self._light(t) * shade
         columns = (means, quats, scale * safemath.exp_scale(log_scales), model.gaussians.opacities(), rgb)
         if not own:
             return columns

@@ -5,7 +5,7 @@ What the effect plan leaves out does not exist here: no field, no gain, no chann
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import torch
 from torch import Tensor, nn
@@ -17,6 +17,7 @@ from genmojo_core.scene.appearance import FrameGain
 from genmojo_core.scene.deform import Deformation, DeformationField
 from genmojo_core.scene.gaussians import Gaussians
 from genmojo_core.scene.placement import Placement
+from genmojo_core.scene.shading import Shade, outward, thin_axes
 
 
 @dataclass(frozen=True)
@@ -77,6 +78,16 @@ class ObjectModel(nn.Module):
             safemath.quaternion_multiply(turn.expand_as(quats), quats), size * scales, 0.5 + SH_C0 * dc, d,
         )  # fmt: skip
 
+    def facing(self, state: ObjectState) -> tuple[Tensor, Tensor]:
+        """World normals (N, 3) of the Gaussians in the canonical frame and in a state; they carry no gradient."""
+        g = self.gaussians
+        with torch.no_grad():
+            own = safemath.normalise(g.quats)
+            axes = outward(g.means, own, thin_axes(g.log_scales))
+            turn = self.placement.similarity(self.ref_frame)[1]
+            there = safemath.rotate(safemath.quaternion_multiply(turn.expand_as(own), own), axes)
+            return there, safemath.rotate(state.quats, axes)
+
     def carry(self, points: Tensor, frames: list[int]) -> Tensor:  # (P, 3) canonical -> (B, P, 3) world
         """World positions of canonical points (not Gaussians) at some frames."""
         deformation = None if self.field is None else self.field(points, torch.tensor(frames))
@@ -119,6 +130,8 @@ class Scene4D(nn.Module):
         objects: K object models in the clip's order. background: world-space Gaussians with fixed means, or None; its
         `invented` ones stay as they are.
         gain: light per frame, or None. cameras: the clip's, for the optimised image size. layout: feature channels.
+
+    `shade`: how bright a surface is by where it faces, or None (the light follows objects that turn).
     """
 
     def __init__(
@@ -131,6 +144,7 @@ class Scene4D(nn.Module):
         if background is not None:
             background.means.requires_grad_(False)
         self.gain = gain
+        self.shade: Shade | None = None
         self.cameras = cameras
         self.layout = layout
         self.register_buffer("w2c", torch.tensor(cameras.world_to_camera, dtype=torch.float32))
@@ -146,7 +160,12 @@ class Scene4D(nn.Module):
     def states(self, frames: list[int], deform: bool = True) -> list[list[ObjectState]]:
         """States of all objects, first index the frame's position in `frames`."""
         by_object = [o.states(frames, deform) for o in self.objects]
-        return [[states[b] for states in by_object] for b in range(len(frames))]
+        return [[self.shaded(model, states[b]) for model, states in zip(self.objects, by_object, strict=True)]
+                for b in range(len(frames))]  # fmt: skip
+
+    def shaded(self, model: ObjectModel, state: ObjectState) -> ObjectState:
+        """The state of an object with its colours under the light it turns in."""
+        return state if self.shade is None else replace(state, rgb=state.rgb * self.shade(*model.facing(state)))
 
     def compose(
         self, t: int, now: list[ObjectState], after: list[ObjectState] | None = None, with_background: bool = True

@@ -151,6 +151,7 @@ def _title(name: str) -> str:
         "camera_motion": tr("Camera motion"),
         "non_rigid_motion": tr("Bending motion"),
         "appearance_change": tr("Changing light"),
+        "shading": tr("Shading of what turns"),
         "unseen_views": tr("Unseen views"),
         "instance_labels": tr("Object labels"),
         "depth_order": tr("Depth order"),

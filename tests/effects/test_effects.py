@@ -91,7 +91,8 @@ def two_crossing() -> Clip:
 
 def test_rigid_objects_under_still_light_and_camera_call_for_little() -> None:
     decided = plan(two_apart(), CONFIG)
-    off = {"joint_occlusion", "camera_motion", "non_rigid_motion", "appearance_change", "unseen_views", "reappearance"}
+    off = {"joint_occlusion", "camera_motion", "non_rigid_motion", "appearance_change", "shading", "unseen_views",
+           "reappearance"}  # fmt: skip
     assert {effect.name for effect in decided.effects if not effect.on} == off
     assert decided.get("non_rigid_motion").settings == {"motion_bases": 0}
 

@@ -32,7 +32,7 @@ TERMS = {
     "unseen_views": {"unseen"},
 }
 PARAMETERS = {
-    "non_rigid_motion": ".field.", "appearance_change": "gain.", "background": "background.",
+    "non_rigid_motion": ".field.", "appearance_change": "gain.", "background": "background.", "shading": "shade.",
 }  # fmt: skip
 CHANNELS = {"instance_labels": 2, "flow": 2}  # three labels become one coverage channel
 
@@ -147,8 +147,8 @@ def test_profile_names_every_effect_with_a_part_and_changes_nothing(whole: Run) 
     before = [p.detach().clone() for p in whole.scene.parameters()]
     layout, tracks = whole.scene.layout, whole.objective.tracks
     costs = measured_costs(whole.objective, whole.plan, [1, 2])
-    assert set(costs) == {"joint_occlusion", "background", "non_rigid_motion", "appearance_change", "instance_labels",
-                          "depth_order", "flow", "track_supervision"}  # fmt: skip
+    assert set(costs) == {"joint_occlusion", "background", "non_rigid_motion", "appearance_change", "shading",
+                          "instance_labels", "depth_order", "flow", "track_supervision"}  # fmt: skip
     assert costs["non_rigid_motion"][0] > 0 and costs["non_rigid_motion"][1] > costs["appearance_change"][1] > 0
     assert whole.scene.layout is layout and whole.objective.tracks is tracks
     assert all(torch.equal(a, b) for a, b in zip(before, whole.scene.parameters(), strict=True))
