@@ -103,7 +103,8 @@ def apply(application: QApplication, theme: str) -> None:
         return
     widgets = application.allWidgets()
     _polish([widget for widget in widgets if widget.isVisible()])
-    _polish_later([widget for widget in widgets if not widget.isVisible()])
+    hidden = [widget for widget in widgets if not widget.isVisible()]
+    QTimer.singleShot(0, lambda: _polish_later(hidden))
 
 
 def _polish(widgets: list[QWidget]) -> None:

@@ -15,7 +15,7 @@ from genmojo_studio.theme import SERIES
 from genmojo_studio.translate import tr
 from genmojo_studio.view3d.picking import Contributor, Pick
 from genmojo_studio.view3d.snapshot import SceneSnapshot
-from genmojo_studio.watch import plots, trajectory
+from genmojo_studio.watch import trajectory
 from genmojo_studio.watch.controls import line
 from genmojo_studio.watch.plots import LatePlot
 from genmojo_studio.watch.trajectory import Trajectory
@@ -51,7 +51,7 @@ class PickingPanel(QWidget):
             ("colour", tr("Colour")),
         ):
             self.what.addItem(text, key)
-        self.plot = LatePlot(self._made, self._fill)
+        self.plot = LatePlot(state, self._made, self._fill)
         self._here = pg.InfiniteLine(0, angle=90, pen=pg.mkPen(SERIES[1]))
         left, right = QVBoxLayout(), QVBoxLayout()
         left.addWidget(self.said)
@@ -65,7 +65,6 @@ class PickingPanel(QWidget):
         self.list.itemSelectionChanged.connect(self._follow_chosen)
         self.what.activated.connect(self.plot.draw)
         state.subscribe(self._show_frame, "frame")
-        state.subscribe(self._dress, "theme")
         self.clear()
 
     def clear(self) -> None:
@@ -131,7 +130,6 @@ class PickingPanel(QWidget):
         plot.setLabel("bottom", tr("frame"))
         plot.addLegend(offset=(-8, 8), labelTextSize="8pt")
         plot.hideButtons()
-        plots.dress(plot, self._state.theme)
         return plot
 
     def _fill(self, plot: pg.PlotWidget) -> None:
@@ -148,10 +146,6 @@ class PickingPanel(QWidget):
 
     def _show_frame(self) -> None:
         self._here.setValue(self._state.frame + 1)
-
-    def _dress(self) -> None:
-        if self.plot.plot is not None:
-            plots.dress(self.plot.plot, self._state.theme)
 
 
 def _item(one: Contributor) -> QTreeWidgetItem:

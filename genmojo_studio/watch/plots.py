@@ -11,6 +11,7 @@ import pyqtgraph as pg
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
+from genmojo_studio.state import AppState
 from genmojo_studio.theme import colours
 
 
@@ -18,13 +19,17 @@ class LatePlot(QWidget):
     """A plot that is made when it is first on show: that takes 50 ms, and most lie behind other panels.
 
     Args:
-        make: makes the plot; `draw` fills it, then and whenever it is asked for anew.
+        state: its theme is followed. make: makes the plot; `draw` fills it, then and whenever it is asked for anew.
     """
 
-    def __init__(self, make: Callable[[], pg.PlotWidget], draw: Callable[[pg.PlotWidget], None]) -> None:
+    def __init__(
+        self, state: AppState, make: Callable[[], pg.PlotWidget], draw: Callable[[pg.PlotWidget], None]
+    ) -> None:
         super().__init__()
-        self._make, self._draw = make, draw
+        self._state, self._make, self._draw = state, make, draw
         self.plot: pg.PlotWidget | None = None
+        self._theme = ""  # that it wears
+        state.subscribe(self._dress, "theme")
         self._layout = QVBoxLayout(self)
         self._layout.setContentsMargins(0, 0, 0, 0)
 
@@ -41,6 +46,13 @@ class LatePlot(QWidget):
             self.plot = self._make()
             self._layout.addWidget(self.plot)
             self.draw()
+        self._dress()
+
+    def _dress(self) -> None:
+        """In the theme's colours, once somebody looks."""
+        if self.plot is not None and self.isVisible() and self._theme != self._state.theme:
+            self._theme = self._state.theme
+            dress(self.plot, self._theme)
 
 
 def dress(plot: pg.PlotWidget, theme: str) -> None:

@@ -28,7 +28,7 @@ from genmojo_studio.background import Tasks
 from genmojo_studio.state import AppState
 from genmojo_studio.theme import SERIES
 from genmojo_studio.translate import tr
-from genmojo_studio.watch import plots, track_sets
+from genmojo_studio.watch import track_sets
 from genmojo_studio.watch.controls import row
 from genmojo_studio.watch.plots import LatePlot
 from genmojo_studio.watch.track_sets import Apart, TrackSet, TrackSets
@@ -52,7 +52,7 @@ class TracksPanel(QWidget):
         self.list.setHeaderLabels([tr("Tracks"), tr("Origin"), tr("Points")])
         self.list.setRootIsDecorated(False)
         self.which, self.reference = QComboBox(), QComboBox()
-        self.plot = LatePlot(self._made, self._fill)
+        self.plot = LatePlot(state, self._made, self._fill)
         self._here = pg.InfiniteLine(0, angle=90, pen=pg.mkPen(SERIES[1]))
         self.said = QLabel()
         self.said.setProperty("role", "dim")
@@ -77,7 +77,6 @@ class TracksPanel(QWidget):
         self.worst.itemClicked.connect(self._jump)
         state.subscribe(self._follow_clip, "clip")
         state.subscribe(self._show_frame, "frame")
-        state.subscribe(self._dress, "theme")
 
     @property
     def selected(self) -> tuple[str, int] | None:
@@ -221,7 +220,6 @@ class TracksPanel(QWidget):
         plot.hideButtons()
         plot.setMouseEnabled(False, False)
         plot.scene().sigMouseClicked.connect(self._clicked)
-        plots.dress(plot, self._state.theme)
         return plot
 
     def _fill(self, plot: pg.PlotWidget) -> None:
@@ -232,10 +230,6 @@ class TracksPanel(QWidget):
             by_frame = self._apart.by_frame()
             pen = pg.mkPen(SERIES[0], width=2)
             plot.plot(np.arange(1, len(by_frame) + 1), by_frame, pen=pen, connect="finite")
-
-    def _dress(self) -> None:
-        if self.plot.plot is not None:
-            plots.dress(self.plot.plot, self._state.theme)
 
 
 def _column(*parts: QWidget | QLayout) -> QVBoxLayout:
