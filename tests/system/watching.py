@@ -56,6 +56,16 @@ class Drive:
         self.rest(0.2)
         dog.stalls, dog.longest = stalls, longest  # taking the picture held up the window, not the app
 
+    def drawn(self, watch):
+        """The view shows what was asked of it last, in full."""
+
+        def there():
+            wanted, report = watch.view.frame_request(), watch.view.overlay.report
+            got = None if report is None or report.request.moving else report.request
+            return got is not None and (got.orbit, got.look, got.t) == (wanted.orbit, wanted.look, wanted.t)
+
+        self.wait(there, 30, "the picture")
+
     def do(self, action_id):
         if not self.window.table.trigger(action_id):
             raise SystemExit(f"{action_id} is not possible here")
@@ -139,12 +149,8 @@ def _play(drive, seconds):
         for stall in window.watchdog.stalls[seen:]:
             slow.setdefault(str(done % len(plays)), []).append([round(value) for value in stall])
         done += 1
-    figures = _stalls(drive) | {
-        "seconds": time.monotonic() - begun,
-        "steps": len(watch.control.log.step),
-        "done": done,
-        "slow": slow,
-    }
+    figures = {"seconds": time.monotonic() - begun, "steps": len(watch.control.log.step), "done": done, "slow": slow}
+    figures |= _stalls(drive)
     if watch.control.live:
         drive.do("run.stop_keep")
     drive.wait(lambda: watch.session.scene is not None, 120, "the scene that was kept")
@@ -165,13 +171,13 @@ def _run(drive, watch):
     for name, angles in (("right_30", (0, 30)), ("above_30", (30, 0)), ("input", (0, 0))):
         drive.do(f"view.{name}")
         drive.wait(lambda angles=angles: (watch.view.orbit.elevation, watch.view.orbit.azimuth) == angles, 20, name)
-        drive.rest(1.0)
+        drive.drawn(watch)
         drive.shot(name)
     window.state.set(frame=10)
     drive.shot("scrubbed")
     window.state.set(selected_object=int(window.state.clip.object_ids[0]))
     drive.do("view.solo")
-    drive.rest(1.0)
+    drive.drawn(watch)
     drive.shot("solo")
     drive.do("edit.undo")
     QTest.mouseClick(watch.view, Qt.MouseButton.LeftButton, pos=watch.view.rect().center())
@@ -199,6 +205,15 @@ def _exports(drive, watch):
     drive.wait(lambda: watch.center.comparison.render is not None, 30, "the comparison")
     drive.shot("difference")
     drive.do("compare.side")
+    drive.do("panel.compare")
+    watch.compare.offers.aboutToShow.emit()
+    watch.compare.freeze.click()
+    drive.wait(lambda: watch.compare._pair is not None, 30, "two scenes")
+    drive.shot("compared")
+    watch.compare.mode.setCurrentIndex(0)
+    watch.compare.mode.activated.emit(0)
+    drive.do("panel.tracks")
+    drive.shot("tracks")
     copy, film = drive.folder / "copy.h5", drive.folder / "turn.mp4"
     for request in (
         ExportRequest("hdf5", scene, str(copy)),
