@@ -165,9 +165,15 @@ class ActionTable:
             if action.workspace in (EVERYWHERE, workspace) and self.is_bound(action.id)
         ]
 
-    def subscribe(self, listener: Callable[[], None]) -> None:
-        """Calls `listener()` when a key or a binding has changed."""
+    def subscribe(self, listener: Callable[[], None]) -> Callable[[], None]:
+        """Calls `listener()` when a key or a binding has changed. Returns a function that ends the subscription."""
         self._listeners.append(listener)
+
+        def unsubscribe() -> None:
+            if listener in self._listeners:
+                self._listeners.remove(listener)
+
+        return unsubscribe
 
     def changed(self) -> None:
         """Tells menus that keys or bindings have changed. What is possible now they ask whenever they open."""

@@ -208,13 +208,14 @@ QToolButton, QPushButton { background: @raised@; border: 1px solid transparent; 
 QToolButton:hover, QPushButton:hover { background: @hover@; }
 QToolButton:focus, QPushButton:focus { border: 1px solid @accent@; }
 QToolButton:checked, QPushButton:checked, QPushButton:default { background: @accent@; color: @on_accent@; }
+QToolButton:checked:focus, QPushButton:checked:focus, QPushButton:default:focus { border: 1px solid @text@; }
 QToolButton:disabled, QPushButton:disabled { color: @off@; background: @panel@; border: 1px solid @raised@; }
 QToolButton[popupMode="1"] { padding-right: 18px; } QToolButton::menu-button { width: 16px; border: none; }
 QToolButton[popupMode="2"] { padding-right: 18px; }
 QToolButton::menu-indicator { subcontrol-position: right center; right: 5px; }
 QLineEdit, QPlainTextEdit, QTextEdit, QTextBrowser {
   background: @field@; border: 1px solid @line@; border-radius: 4px; padding: 3px 5px; }
-QLineEdit:focus { border: 1px solid @accent@; }
+QLineEdit:focus, QPlainTextEdit:focus, QTextEdit:focus, QTextBrowser:focus { border: 1px solid @accent@; }
 QAbstractSpinBox QLineEdit { border: none; padding: 0; background: transparent; }
 QComboBox QAbstractItemView { background: @panel@; border: 1px solid @line@; }
 QCheckBox::indicator, QAbstractItemView::indicator { width: 13px; height: 13px; border: 1px solid @dim@;
@@ -222,13 +223,16 @@ QCheckBox::indicator, QAbstractItemView::indicator { width: 13px; height: 13px; 
 QCheckBox::indicator:checked, QAbstractItemView::indicator:checked { background: @accent@; border: 1px solid @accent@;
   image: url("@icons@/check.svg"); }
 QCheckBox::indicator:focus { border: 1px solid @accent@; }
+QCheckBox::indicator:checked:focus { border: 1px solid @text@; }
 QAbstractItemView { background: @field@; border: 1px solid @line@; selection-background-color: @accent@;
   selection-color: @on_accent@; alternate-background-color: @panel@; }
+QAbstractItemView:focus { border: 1px solid @accent@; }
 QTreeView::item, QListView::item { padding: 2px 0; }
 QHeaderView::section { background: @raised@; border: none; padding: 4px 6px; color: @text@; }
 QTabBar { qproperty-drawBase: 0; }
 QTabBar::tab { background: @window@; color: @dim@; padding: 6px 12px; border: none; }
 QTabBar::tab:selected { background: @panel@; color: @text@; border-bottom: 2px solid @accent@; }
+QTabBar::tab:selected:focus { background: @raised@; }
 QTabBar::tab:hover { color: @text@; } QTabWidget::pane { border: none; }
 QGroupBox { border: 1px solid @line@; border-radius: 5px; margin-top: 9px; padding-top: 8px; }
 QGroupBox::title { subcontrol-origin: margin; left: 9px; padding: 0 4px; color: @dim@; }

@@ -9,7 +9,7 @@ from genmojo_studio.actions import Action
 
 WORKSPACE = "annotate"
 MENUS = {"move": "Go", "point": "Points", "track": "Tracks", "view": "View", "edit": "Edit", "review": "Review",
-         "file": "File", "step": "Go/Step"}  # fmt: skip
+         "file": "File", "step": "Go/Step", "panel": "View/Panels"}  # fmt: skip
 
 
 def _action(name: str, text: str, keys: str = "", help_: str = "", **more: object) -> Action:
@@ -48,6 +48,8 @@ _MOVE = (
     _action("move.worst_back", "Previous suspicious spot", "Shift+N", "Back through the suspicious spots."),
     _action("move.back", "Back to where I was", "Alt+Home", "The frame and track before the last jump."),
     _action("move.panel", "Next panel", "F6", "Moves the keyboard to the next panel."),
+    _action("move.panel_back", "Previous panel", "Shift+F6", "Moves the keyboard to the panel before."),
+    _action("move.frame", "Back to the frame", "Esc", "Gives the keyboard to the frame and puts drawing tools away."),
 )  # fmt: skip
 
 _POINT = (
@@ -121,6 +123,7 @@ _REST = (
     _action("review.fix", "Needs a fix…", "X", "Returns the track to its annotator with a reason.", blender="Ctrl+X"),
     _action("review.fixed", "Fixed", "Ctrl+Shift+Return", "Says that the spot was worked on."),
     _action("review.approve", "Approve the track", "Ctrl+Return", "The track is right; it is locked."),
+    _action("review.reject", "Reject the track", "Ctrl+Shift+X", "The track is given up; it stays in the project."),
     _action("review.merge", "Compare with a second annotator…", "", "Agreement, and a merge with preview."),
     _action("review.log", "Log and statistics…", "", "Who did what when; time per clip and person."),
     _action("file.new_clip", "Annotate a clip…", "", "Opens a clip with a project of its own.", separator=True),
@@ -129,6 +132,9 @@ _REST = (
     _action("file.export", "Export tracks…", "Ctrl+E", "The same formats."),
     _action("file.tour", "Tour of the annotator", "", "Ten steps on a clip made on the spot."),
     _action("step.edit_mask", "Draw the selected mask anew", "", "Step 1; what is drawn replaces the object's mask."),
+    _action("panel.buttons", "Buttons", "", "Shows or hides this panel.", checkable=True),
+    _action("panel.information", "Information", "", "Shows or hides this panel.", checkable=True),
+    _action("panel.play", "Video play", "", "Shows or hides this panel.", checkable=True),
     *(_action(f"step.{n}", title, f"Alt+{n}", f"Step {n} of 4.") for n, title in
       enumerate(("Objects", "Points and seed", "Refine", "Review"), 1)),
 )  # fmt: skip

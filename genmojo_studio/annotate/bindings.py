@@ -82,6 +82,7 @@ class Hands:
         w.canvas.hovered.connect(self.hovered)
         w.canvas.cycled.connect(self.cycle)
         w.play.sheet.painted.connect(self.painted)
+        w.play.graphs.moved.connect(self.knot_moved)
         w.refine.spot_chosen.connect(self.show_spot)
         w.work.spots_ready.connect(self.going.set_spots)
         w.points.seed_wanted.connect(self.dialogs.seed)
@@ -131,6 +132,7 @@ class Hands:
             "review.fix": self.dialogs.fix,
             "review.fixed": lambda: self._fixed(),
             "review.approve": w.review.approve,
+            "review.reject": w.review.reject,
             "review.merge": self.dialogs.merge,
             "review.log": self.dialogs.log,
         }
@@ -141,8 +143,8 @@ class Hands:
         return {
             "view.fit": w.canvas.fit,
             "view.one": w.canvas.one_to_one,
-            "view.in": lambda: w.canvas.zoom(1.25),
-            "view.out": lambda: w.canvas.zoom(0.8),
+            "view.in": lambda: w.canvas.zoom_step(1),
+            "view.out": lambda: w.canvas.zoom_step(-1),
             "view.follow": lambda: w.screen_link.set_follow(not w.screen_link.follow),
             "view.loupe_stay": self.loupe_toggle,
             "view.masks": self._masks,
@@ -159,6 +161,9 @@ class Hands:
             "file.export": self.dialogs.export_tracks,
             "file.tour": w.start_tour,
             "move.panel": w.next_panel,
+            "move.panel_back": lambda: w.next_panel(-1),
+            "move.frame": w.back_to_frame,
+            **{f"panel.{name}": partial(self._panel, name) for name in w.docks},
             **{f"step.{n + 1}": partial(w.show_step, n) for n in range(4)},
             "step.edit_mask": self.edit_mask,
         }
@@ -174,8 +179,8 @@ class Hands:
     def enabled(self, name: str) -> Callable[[], bool]:
         """When an action is possible."""
         s = self._s
-        needs_track = name.startswith(("track.", "review.fix", "review.approve", "point.key", "point.delete",
-                                       "point.nudge", "point.push", "point.uncertain", "move.key",
+        needs_track = name.startswith(("track.", "review.fix", "review.approve", "review.reject", "point.key",
+                                       "point.delete", "point.nudge", "point.push", "point.uncertain", "move.key",
                                        "move.bisect"))  # fmt: skip
         if name == "track.seed":
             return lambda: self._w.session is s and bool(s.annotation.tracks)
@@ -193,7 +198,9 @@ class Hands:
             "view.strip": lambda: w.strip.isVisible(),
             "track.lock": lambda: s.track is not None and s.annotation.tracks[s.track].locked,
         }
-        return switches.get(name)
+        switches |= {f"panel.{panel}": partial(w.docks[panel].isVisibleTo, w) for panel in w.docks}
+        switch = switches.get(name)
+        return None if switch is None else lambda: w.session is s and switch()
 
     # ---- mouse
 
@@ -236,6 +243,11 @@ class Hands:
     def painted(self, track: int, first: int, last: int) -> None:
         """A drag over the dope sheet."""
         verbs.paint(self._s, track, self._w.play.brush_state(), first, last)
+
+    def knot_moved(self, track: int, frame: int, x: float, y: float) -> None:
+        """A knot of a curve was dragged: the key goes there, as if it had been dragged in its frame."""
+        self._s.go(frame)
+        self.dragged(track, x, y)
 
     def cycle(self, step: int) -> None:
         """The next or previous point over all objects."""
@@ -293,6 +305,11 @@ class Hands:
         objects = self._s.objects()
         if place <= len(objects):
             self._s.select(objects[place - 1].id, self._s.active[1])
+
+    def _panel(self, name: str) -> None:
+        """Show or hide a panel, as the cross in its title does."""
+        dock = self._w.docks[name]
+        dock.setVisible(not dock.isVisibleTo(self._w))
 
     def _mark_run(self, end: int) -> None:
         ends = list(self._s.run)

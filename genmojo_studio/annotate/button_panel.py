@@ -38,8 +38,9 @@ class ButtonPanel(QScrollArea):
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setMinimumWidth(120)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # its buttons take the keyboard, and it follows them
         self.setAccessibleName(tr("Buttons of this step"))
-        actions.subscribe(self.refresh)
+        self.destroyed.connect(actions.subscribe(self.refresh))
 
     def sizeHint(self) -> QSize:
         """Narrow."""
@@ -155,6 +156,7 @@ class StepBar(QWidget):
             button.setText(f"{n + 1}  {tr(step.title)}")
             button.setCheckable(True)
             button.setToolTip(f"{tr(step.task)}  (Alt+{n + 1})")
+            button.setObjectName(f"annotate.step.{n + 1}")  # the action of the same key
             self._group.addButton(button, n)
             self.buttons.append(button)
             row.addWidget(button)
@@ -172,7 +174,6 @@ class StepBar(QWidget):
         row.addWidget(QLabel(tr("stride")))
         self.stride = QSpinBox(minimum=1, maximum=10, value=2)
         self.stride.setAccessibleName(tr("Stride in frames"))
-        self.stride.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
         self.stride.valueChanged.connect(self.stride_changed)
         row.addWidget(self.stride)
         self.saved = QLabel()

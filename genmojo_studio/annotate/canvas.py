@@ -135,6 +135,14 @@ class Canvas(QWidget):
         self.mapping = self.mapping.zoomed(factor, at.x(), at.y())
         self._zoom_changed()
 
+    def zoom_step(self, steps: float, at: QPointF | None = None) -> None:
+        """Zoom in (1) or out (-1) by a step: the loupe while it is open, else the frame."""
+        if self.loupe.on:
+            self.loupe.zoom = min(max(self.loupe.zoom * 2 ** (steps / 2), 4.0), 16.0)
+            self.update()
+        else:
+            self.zoom(1.2**steps, at)
+
     def mouse_raster(self) -> tuple[float, float] | None:
         """Raster position of the mouse, None outside the frame."""
         if self._frame is None or not self.rect().contains(self._mouse.toPoint()):
@@ -279,12 +287,7 @@ class Canvas(QWidget):
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         """Zoom at the mouse; the loupe's own zoom while it is held."""
-        steps = event.angleDelta().y() / 120
-        if self.loupe.on:
-            self.loupe.zoom = min(max(self.loupe.zoom * 2 ** (steps / 2), 4.0), 16.0)
-            self.update()
-        else:
-            self.zoom(1.2**steps, event.position())
+        self.zoom_step(event.angleDelta().y() / 120, event.position())
         event.accept()
 
     def resizeEvent(self, event: QResizeEvent) -> None:

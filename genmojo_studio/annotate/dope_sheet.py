@@ -1,6 +1,7 @@
 """The dope sheet: every track's state in every frame at a glance. Click to go there, drag to paint a state.
 
 Fill: visible. Hatch: occluded. Dots: out of view. Empty: not annotated. Diamond: a person's key. Red: suspicious.
+Paler: the tracker was less sure.
 The pattern is made in one numpy picture per change, so that stepping only moves the playhead.
 """
 
@@ -10,6 +11,7 @@ import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
     QColor,
+    QFocusEvent,
     QImage,
     QMouseEvent,
     QPainter,
@@ -22,7 +24,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QAbstractScrollArea, QWidget
 
-from genmojo_core.tracks.annotation import KEY
+from genmojo_core.tracks.annotation import CONFIRMED, KEY
 from genmojo_core.tracks.model import OCCLUDED
 from genmojo_studio.annotate.colours import heat_colour, point_colour
 from genmojo_studio.annotate.overlay import glyph_path
@@ -119,6 +121,9 @@ class DopeSheet(QAbstractScrollArea):
             painter.setPen(self.palette().placeholderText().color())
             area = QRectF(LABEL, RULER, self._width(), ROW * 3)
             painter.drawText(area, Qt.AlignmentFlag.AlignCenter, tr("No points yet: place them in step 2."))
+        if self.hasFocus():
+            painter.setPen(QPen(self.palette().highlight().color(), 2))
+            painter.drawRect(QRectF(self.viewport().rect()).adjusted(1, 1, -1, -1))
         painter.end()
 
     def _make_still(self) -> QPixmap:
@@ -219,7 +224,8 @@ class DopeSheet(QAbstractScrollArea):
             cells = annotation.track(track)
             colour = point_colour(self._session.place_of(info.object), info.number - 1)
             part = pixels[n * row_pixels : (n + 1) * row_pixels]
-            part[:] = _pattern((row_pixels, width), cells.state[column], colour, doubt[column], ratio)
+            sure = np.where(cells.flags & (KEY | CONFIRMED), 1.0, cells.conf)
+            part[:] = _pattern((row_pixels, width), cells.state[column], colour, (doubt[column], sure[column]), ratio)
         self._pixels = pixels
         self._strip = QImage(pixels.data, width, height, 4 * width, QImage.Format.Format_ARGB32)
         self._strip.setDevicePixelRatio(ratio)
@@ -295,6 +301,14 @@ class DopeSheet(QAbstractScrollArea):
         self._still = None
         self.viewport().update()
 
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        """Show that the keyboard is here."""
+        self.viewport().update()
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        """And that it is not."""
+        self.viewport().update()
+
     def changeEvent(self, event: QEvent) -> None:
         """Other colours, another picture."""
         super().changeEvent(event)
@@ -307,10 +321,18 @@ class DopeSheet(QAbstractScrollArea):
 
 
 def _pattern(
-    shape: tuple[int, int], state: np.ndarray, colour: tuple[int, int, int], doubt: np.ndarray, ratio: float
+    shape: tuple[int, int],
+    state: np.ndarray,
+    colour: tuple[int, int, int],
+    trust: tuple[np.ndarray, np.ndarray],
+    ratio: float,
 ) -> np.ndarray:  # (h, w, 4) uint8 BGRA
-    """Fill, hatch, dots or nothing for every column, and a red rim where it is suspicious."""
+    """Fill, hatch, dots or nothing for every column; a red rim where it is suspicious, paler where less sure.
+
+    `trust`: suspicion and confidence of every column, 0..1.
+    """
     height, width = shape
+    doubt, sure = trust
     y, x = np.ogrid[:height, :width]
     top, bottom = round(2 * ratio), height - round(2 * ratio)
     unit = max(1, round(ratio))
@@ -321,7 +343,7 @@ def _pattern(
     out = np.zeros((height, width, 4), np.uint8)
     bgr = np.array(colour[::-1], np.uint8)
     out[on, :3] = bgr
-    out[on, 3] = 215
+    out[..., 3] = np.where(on, (110 + 105 * np.clip(sure, 0, 1)).astype(np.uint8), 0)
     faint = inside & ~on & (state == OCCLUDED)
     out[faint, :3] = bgr
     out[faint, 3] = 45

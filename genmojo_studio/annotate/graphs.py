@@ -1,9 +1,13 @@
-"""Curves of the active track over time: position, speed, confidence, suspicion. A click goes to that frame."""
+"""Curves of the active track over time: position, speed, confidence, suspicion. A click goes to that frame.
+
+In the curves of x and y the keys are knots: dragging one up or down moves the key.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 import pyqtgraph as pg
+from pyqtgraph.GraphicsScene.mouseEvents import HoverEvent, MouseDragEvent
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QVBoxLayout, QWidget
 
@@ -14,10 +18,48 @@ from genmojo_studio.annotate.session import Session
 from genmojo_studio.translate import tr
 
 
+class Knots(pg.ScatterPlotItem):
+    """Keys on a curve; where `loose`, each can be dragged up and down."""
+
+    dropped = Signal(int, float)  # place of the knot, its new value
+
+    def __init__(self, frames: np.ndarray, values: np.ndarray, loose: bool) -> None:
+        super().__init__(frames, values, symbol="d", size=11, brush="w", pen="k", hoverable=loose, hoverSize=15)
+        self._frames, self._values, self._loose = frames, values, loose
+        self._held: int | None = None
+
+    def hoverEvent(self, event: HoverEvent) -> None:
+        """A drag that begins on a knot is the knot's, not the plot's."""
+        super().hoverEvent(event)
+        if self._loose and not event.isExit() and len(self.pointsAt(event.pos())):
+            event.acceptDrags(Qt.MouseButton.LeftButton)
+
+    def mouseDragEvent(self, event: MouseDragEvent) -> None:
+        """Hold the knot under the button's press until it comes up."""
+        if event.button() != Qt.MouseButton.LeftButton or not self._loose:
+            event.ignore()
+            return
+        if event.isStart():
+            under = self.pointsAt(event.buttonDownPos())
+            self._held = int(under[0].index()) if len(under) else None
+        if self._held is None:
+            event.ignore()
+            return
+        event.accept()
+        self.getViewBox().enableAutoRange(enable=event.isFinish())  # a scale that moved along would run away
+        values = self._values.copy()
+        values[self._held] = event.pos().y()
+        self.setData(self._frames, values)
+        if event.isFinish():
+            held, self._held = self._held, None
+            self.dropped.emit(held, float(values[held]))
+
+
 class Graphs(QWidget):
     """One plot with the curve chosen, of the active track and faintly of its object's others."""
 
     seek = Signal(int)
+    moved = Signal(int, int, float, float)  # track, frame, raster x and y: a knot was dragged there
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -33,6 +75,7 @@ class Graphs(QWidget):
         self.plot.showGrid(x=True, y=True, alpha=0.2)
         self.plot.setLabel("bottom", tr("frame"))
         self.plot.setMenuEnabled(False)
+        self.plot.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # keys move frames and points, as everywhere
         self.plot.getPlotItem().hideButtons()
         self.plot.setBackground(None)
         self._now = pg.InfiniteLine(angle=90, pen=pg.mkPen(70, 140, 220, width=2))
@@ -45,7 +88,8 @@ class Graphs(QWidget):
         left.addStretch()
         row.addLayout(left)
         row.addWidget(self.plot, 1)
-        self._lines: list[pg.PlotDataItem] = []
+        self._lines: list[pg.GraphicsObject] = []
+        self.knots: Knots | None = None
         session.edited.connect(self._later)
         session.selected.connect(self._later)
         session.frame_changed.connect(self._move)
@@ -63,7 +107,7 @@ class Graphs(QWidget):
         """Draw the curves again."""
         for line in self._lines:
             self.plot.removeItem(line)
-        self._lines = []
+        self._lines, self.knots = [], None
         session = self._session
         place = session.place_of(session.active[0])
         for info in session.annotation.tracks_of(session.active[0]):
@@ -73,10 +117,24 @@ class Graphs(QWidget):
             pen = pg.mkPen(colour, width=2 if own else 1)
             self._lines.append(self.plot.plot(np.arange(len(values)), values, pen=pen, connect="finite"))
             if own:
-                keys = session.annotation.keys(info.id)
-                self._lines.append(self.plot.plot(keys, values[keys], pen=None, symbol="d", symbolSize=9,
-                                                  symbolBrush="w", symbolPen="k"))  # fmt: skip
+                self.knots = self._knots(info.id, values)
+                self.plot.addItem(self.knots)
+                self._lines.append(self.knots)
         self._move(session.frame)
+
+    def _knots(self, track: int, values: np.ndarray) -> Knots:
+        """The keys of a track on its curve."""
+        keys, axis = self._session.annotation.keys(track), self.choice.currentIndex()
+        knots = Knots(keys, values[keys], axis < 2 and not self._session.annotation.tracks[track].locked)
+
+        def dropped(place: int, value: float) -> None:
+            frame = int(keys[place])
+            xy = self._session.annotation.track(track).xy[frame].tolist()
+            xy[axis] = value
+            self.moved.emit(track, frame, *xy)
+
+        knots.dropped.connect(dropped)
+        return knots
 
     def _values(self, track: int) -> np.ndarray:  # (T,), NaN where unknown
         cells = self._session.annotation.track(track)

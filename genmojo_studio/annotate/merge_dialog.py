@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QComboBox,
@@ -46,15 +49,18 @@ class MergeDialog(QDialog):
         self.resize(720, 520)
         summary = QLabel(self._summary(), wordWrap=True)
         self.table = QTableWidget(len(self.runs), 5)
+        self.table.setTabKeyNavigation(False)
         self._fill()
-        note = QLabel(tr("What only they changed is taken over; of conflicts, what you choose. One step; it can be "
-                         "undone."), wordWrap=True)  # fmt: skip
+        note = QLabel(tr("What only they changed is taken over; of conflicts, what you choose (keys 1, 2, 3 for "
+                         "the row). One step; it can be undone."), wordWrap=True)  # fmt: skip
         note.setProperty("role", "dim")
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
         self.take = buttons.addButton(tr("Merge"), QDialogButtonBox.ButtonRole.AcceptRole)
         self.take.setEnabled(bool(self.runs))
         buttons.accepted.connect(self._merge)
         buttons.rejected.connect(self.reject)
+        for n in range(len(_CHOICES)):
+            QShortcut(QKeySequence(str(n + 1)), self, partial(self._choose, n))
         column = QVBoxLayout(self)
         for widget in (summary, self.table, note, buttons):
             column.addWidget(widget)
@@ -101,6 +107,13 @@ class MergeDialog(QDialog):
             run: MergeRun = self.runs[row]
             self._session.select_track(run.track)
             self._session.go((run.first + run.last) // 2, jump=True)
+
+    def _choose(self, choice: int) -> None:
+        """Take mine, theirs or the middle for the row, and go to the next."""
+        row = self.table.currentRow()
+        if 0 <= row < len(self.choices):
+            self.choices[row].setCurrentIndex(choice)
+            self.table.selectRow(min(row + 1, len(self.choices) - 1))
 
     def _merge(self) -> None:
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)

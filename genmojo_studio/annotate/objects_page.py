@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
     QLabel,
     QProgressBar,
     QPushButton,
+    QSpinBox,
     QTableWidget,
     QTableWidgetItem,
     QToolButton,
@@ -25,6 +26,7 @@ from PySide6.QtWidgets import (
 
 from genmojo_core.tracks.annotation import ObjectInfo, Touched
 from genmojo_core.tracks.edit_tracks import put_objects
+from genmojo_core.tracks.edits import set_meta
 from genmojo_studio.annotate.candidates import Figures
 from genmojo_studio.annotate.canvas import Tool
 from genmojo_studio.annotate.session import Session
@@ -54,6 +56,7 @@ class ObjectsPage(QWidget):
         self.instead.setToolTip(tr("What is drawn replaces its mask in every frame; runs use the new one."))
         self.progress = QProgressBar(maximum=100)
         self.note = QLabel(wordWrap=True)
+        self.limits = {"objects": QSpinBox(minimum=1, maximum=20), "points": QSpinBox(minimum=1, maximum=20)}
         self.progress.hide()
         self._arrange()
         session.edited.connect(self._edited)
@@ -72,6 +75,9 @@ class ObjectsPage(QWidget):
         chosen = len(self._session.objects())
         most = self._session.limit("objects")
         self.note.setText(tr("{n} of at most {most} objects chosen.").format(n=chosen, most=most))
+        for name, box in self.limits.items():
+            with QSignalBlocker(box):
+                box.setValue(self._session.limit(name))
 
     def set_figures(self, figures: dict[int, Figures]) -> None:
         """Figures of the masks have been computed."""
@@ -151,11 +157,12 @@ class ObjectsPage(QWidget):
         icon = point_icon(self._session.place_of(info.id), 0) if chosen else QIcon()
         advice = {"small": tr("very small"), "static": tr("hardly moves"), "hidden": tr("seen in few frames")}
         text = tr(info.reason) or (advice.get(f.advice, "") if f else "")
+        tip = f"{texts[0]}: {text}" if text else texts[0]
         for column in range(_COLUMNS):
             cell = self.table.item(row, column)
             if cell is None:
                 continue
-            cell.setToolTip(text)
+            cell.setToolTip(tip)
             if column == 0:
                 cell.setIcon(icon)
             elif column == 1 and info.status == "candidate" and text:
@@ -180,6 +187,7 @@ class ObjectsPage(QWidget):
         self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.table.setTabKeyNavigation(False)
+        self.table.setWordWrap(False)
         self.table.setAccessibleName(tr("Candidate objects"))
         self.table.itemChanged.connect(self._renamed)
         self.table.itemSelectionChanged.connect(self._picked)
@@ -191,6 +199,21 @@ class ObjectsPage(QWidget):
         column.addWidget(self.instead)
         column.addWidget(self.progress)
         column.addWidget(self.note)
+        column.addLayout(self._most())
+
+    def _most(self) -> QHBoxLayout:
+        """How many objects, and points of each, this project wants."""
+        row = QHBoxLayout()
+        row.addWidget(QLabel(tr("At most")))
+        for name, suffix in (("objects", tr(" objects")), ("points", tr(" points each"))):
+            box = self.limits[name]
+            box.setSuffix(suffix)
+            box.setAccessibleName(tr("At most") + suffix)
+            box.setKeyboardTracking(False)
+            box.valueChanged.connect(self._limited)
+            row.addWidget(box)
+        row.addStretch()
+        return row
 
     def _decisions(self) -> QGridLayout:
         grid = QGridLayout()
@@ -234,14 +257,14 @@ class ObjectsPage(QWidget):
 
     def _tool_clicked(self) -> None:
         chosen = next((t for t, b in self.tools.items() if b is self.sender() and b.isChecked()), None)
-        self.show_tool(chosen)
-        self.cut.setEnabled(chosen is not None)
-        self.tool_wanted.emit(chosen)
+        self.use_tool(chosen)
 
-    def show_tool(self, chosen: Tool | None) -> None:
-        """Tick the tool that is in use."""
+    def use_tool(self, chosen: Tool | None) -> None:
+        """Draw with a tool from now on, or with none."""
         for tool, button in self.tools.items():
             button.setChecked(tool == chosen)
+        self.cut.setEnabled(chosen is not None)
+        self.tool_wanted.emit(chosen)
 
     def _renamed(self, item: QTableWidgetItem) -> None:
         if self._filling or item.column():
@@ -263,8 +286,17 @@ class ObjectsPage(QWidget):
             self.table.selectRow(row)
 
     def _edited(self, touched: Touched) -> None:
-        if touched.objects:
+        changed = any(box.value() != self._session.limit(name) for name, box in self.limits.items())
+        if touched.objects or changed:
             self.refresh()
+
+    def _limited(self) -> None:
+        """A person wants more or fewer objects or points."""
+        for name, box in self.limits.items():
+            if box.value() != self._session.limit(name):
+                edit = set_meta(self._session.annotation, f"limit_{name}", str(box.value()))
+                if self._session.do(replace(edit, title=tr("At most") + f" {box.text()}")) is None:
+                    self.refresh()
 
     def _up(self) -> None:
         self.reorder(-1)

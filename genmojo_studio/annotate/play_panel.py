@@ -115,7 +115,7 @@ class PlayPanel(QWidget):
         column.addWidget(self.stack, 1)
         session.frame_changed.connect(self._show_frame)
         self.player.toggled.connect(self._show_playing)
-        session.state.subscribe(self._dress, "theme")
+        self.destroyed.connect(session.state.subscribe(self._dress, "theme"))
         self._dress()
         self._show_frame(session.frame)
 

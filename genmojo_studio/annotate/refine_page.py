@@ -120,6 +120,7 @@ class RefinePage(QWidget):
         outer = QVBoxLayout(self)
         outer.setContentsMargins(8, 6, 8, 6)
         outer.addWidget(split)
+        QWidget.setTabOrder(self.tree, self.note)
 
     def _frame_changed(self, _frame: int) -> None:
         self._later.start()

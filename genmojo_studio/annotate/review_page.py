@@ -38,6 +38,8 @@ class ReviewPage(QWidget):
         self.tree = TrackTree(session, ("review", "doubt"))
         self.person = QLineEdit(session.project.person, placeholderText=tr("your name"))
         self.approve_button, self.fix_button = QPushButton(tr("Approve")), QPushButton(tr("Needs a fix:"))
+        self.reject_button = QPushButton(tr("Reject"))
+        self.reject_button.setToolTip(tr("The track is given up; it stays in the project."))
         self.reason, self.run_label = QComboBox(), QLabel()
         self.note = QLineEdit(placeholderText=tr("what is wrong there"))
         self.consent = QCheckBox(tr("Time and effort may be exported"))
@@ -62,6 +64,17 @@ class ReviewPage(QWidget):
             step = verbs.attempt(self._session, lambda: edit_tracks.approve(annotation, track, self._who()))
             if step is not None:
                 self._next_open()
+
+    def reject(self) -> None:
+        """The active track is given up; the note says why."""
+        session, track = self._session, self._session.track
+        if track is None:
+            return
+        note = self.note.text()[:400]
+        step = verbs.attempt(session, lambda: edit_tracks.reject(session.annotation, track, self._who(), note))
+        if step is not None:
+            self.note.clear()
+            self._next_open()
 
     def needs_fix(self, reason: int | None = None) -> None:
         """The active track goes back to its annotator; `reason` from 0, by default the one chosen."""
@@ -115,11 +128,14 @@ class ReviewPage(QWidget):
         self.reason.setAccessibleName(tr("What is wrong"))
         self.approve_button.clicked.connect(self.approve)
         self.fix_button.clicked.connect(self._fix_clicked)
+        self.reject_button.clicked.connect(self.reject)
         self.consent.clicked.connect(self._consent_clicked)
         self.merge_button.clicked.connect(self.merge_wanted)
         self.log_button.clicked.connect(self.log_wanted)
         self.person.editingFinished.connect(self._named)
-        who, decide, together = QHBoxLayout(), QHBoxLayout(), QHBoxLayout()
+        who, final, decide, together = QHBoxLayout(), QHBoxLayout(), QHBoxLayout(), QHBoxLayout()
+        final.addWidget(self.approve_button, 2)
+        final.addWidget(self.reject_button, 1)
         who.addWidget(QLabel(tr("Reviewer")))
         who.addWidget(self.person, 1)
         decide.addWidget(self.fix_button)
@@ -131,7 +147,7 @@ class ReviewPage(QWidget):
         column.setContentsMargins(0, 2, 0, 0)
         column.setSpacing(4)
         column.addLayout(who)
-        column.addWidget(self.approve_button)
+        column.addLayout(final)
         column.addLayout(decide)
         column.addWidget(self.run_label)
         column.addWidget(self.note)
@@ -146,6 +162,7 @@ class ReviewPage(QWidget):
         outer.setContentsMargins(8, 6, 8, 6)
         outer.addWidget(self.summary)
         outer.addWidget(split, 1)
+        QWidget.setTabOrder(self.tree, self.person)
 
     def _fix_clicked(self) -> None:
         self.needs_fix()
@@ -155,4 +172,4 @@ class ReviewPage(QWidget):
 
     def _consent_clicked(self, on: bool) -> None:
         self._session.do(set_meta(self._session.annotation, "consent", "yes" if on else None))
-        self.consent.setCheckState(Qt.CheckState.Checked if on else Qt.CheckState.Unchecked)
+        self.consent.setChecked(self._session.annotation.meta.get("consent") == "yes")  # read only: as it was

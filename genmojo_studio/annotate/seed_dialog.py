@@ -142,12 +142,27 @@ class SeedDialog(QDialog):
     def _cotracker_options(self) -> QWidget:
         inside = QWidget()
         form = QFormLayout(inside)
+        self.origin = QComboBox()
+        self.origin.addItem(tr("a folder of mine"), "")
+        self.origin.addItem(tr("CoTracker 3, downloaded by torch.hub"), "hub:cotracker3_offline")
+        self.origin.addItem(tr("CoTracker 2, downloaded by torch.hub"), "hub:cotracker2")
         self.checkout = _PathLine(tr("folder of CoTracker's source"), "", self._settings.text("cotracker/checkout"))
         self.weights = _PathLine(tr("its weights (.pth)"), "*.pth", self._settings.text("cotracker/weights"))
         self.consent = QCheckBox(tr("I have read its licence, and this use is not commercial"))
+        self.download = QCheckBox(tr("Its code and weights may be downloaded and run"))
+        form.addRow(tr("From"), self.origin)
         form.addRow(tr("Source"), self.checkout)
         form.addRow(tr("Weights"), self.weights)
+        form.addRow(self.download)
         form.addRow(self.consent)
+
+        def show_origin() -> None:
+            hub = bool(self.origin.currentData())
+            for widget, on in ((self.checkout, not hub), (self.weights, not hub), (self.download, hub)):
+                form.setRowVisible(widget, on)
+
+        self.origin.currentIndexChanged.connect(show_origin)
+        show_origin()
         return inside
 
     def _file_options(self) -> QWidget:
@@ -171,10 +186,13 @@ class SeedDialog(QDialog):
             self.note.setText(str(error))
             return
         if started:
-            self.progress.setVisible(True)
-            self.start.setEnabled(False)
-            for widget in (*self._trackers.buttons(), *self._scope.buttons(), *self.options.values()):
-                widget.setEnabled(False)
+            self._show_running(True)
+
+    def _show_running(self, on: bool) -> None:
+        """While it runs nothing can be chosen; when it failed, everything can again."""
+        self.progress.setVisible(on)
+        for widget in (self.start, *self._trackers.buttons(), *self._scope.buttons(), *self.options.values()):
+            widget.setEnabled(not on)
 
     def _begin(self, name: str) -> bool:
         """Start what was chosen; False (with a sentence) where something is missing. Raises GenmojoError."""
@@ -190,6 +208,10 @@ class SeedDialog(QDialog):
         if not self.consent.isChecked():
             self.note.setText(tr("CoTracker's licence has to be agreed to first."))
             return False
+        hub = str(self.origin.currentData())
+        if hub:
+            consent = "yes" if self.download.isChecked() else ""
+            return tracker.seed_by(seeding.make("cotracker", hub, consent=consent), self.objects())
         self._settings.put("cotracker/checkout", self.checkout.text())
         self._settings.put("cotracker/weights", self.weights.text())
         made = seeding.make("cotracker", self.checkout.text() or None, checkpoint=self.weights.text())
@@ -219,7 +241,7 @@ class SeedDialog(QDialog):
         self._work.tracker.seed_by(seeding.make("scene", path), self.objects())
 
     def _failed(self, sentence: str) -> None:
-        self.progress.setVisible(False)
+        self._show_running(False)
         self.note.setText(sentence)
 
     def _progressed(self, share: float) -> None:

@@ -22,7 +22,7 @@ from genmojo_studio.translate import tr
 
 POINTS = 5  # key points per object
 OBJECTS = 5  # objects per clip; both can be changed in the project's notes
-TRAILS = (0, 6, 24)  # frames on either side
+TRAILS = (0, 6, 24, 60)  # frames on either side
 
 
 @dataclass

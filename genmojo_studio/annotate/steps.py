@@ -105,6 +105,7 @@ SHORT = {  # what a narrow button says where the menu's text is too long
     "view.strip": mark("Strip"),
     "review.approve": mark("Approve"),
     "review.fix": mark("Needs a fix"),
+    "review.reject": mark("Reject"),
     "review.merge": mark("Compare…"),
     "review.log": mark("Log…"),
     "file.export": mark("Export…"),
@@ -169,7 +170,7 @@ STEPS = (
         mark("Review"),
         mark("Watch every track; approve it, or return it with a reason."),
         (
-            (mark("Decide"), _ids("review.approve", "review.fix", "move.worst", "move.loop")),
+            (mark("Decide"), _ids("review.approve", "review.fix", "review.reject", "move.worst", "move.loop")),
             (mark("Together"), _ids("review.merge", "review.log", "file.export")),
             _LOOK,
             (mark("History"), _ids("edit.undo", "edit.redo", "edit.checkpoint")),

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QPoint, QRect, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
+from PySide6.QtCore import QEvent, QPoint, QRect, Qt
+from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from genmojo_studio.translate import mark, tr
@@ -143,6 +143,8 @@ class Tour(QFrame):
         for label in (self.title, self.text):
             column.addWidget(label)
         column.addLayout(row)
+        for before, after in ((self.next, self.back), (self.back, self.end)):
+            QWidget.setTabOrder(before, after)
         self.go(0)
 
     def go(self, at: int) -> None:
@@ -169,6 +171,22 @@ class Tour(QFrame):
         """End the tour."""
         self.frame.deleteLater()
         self.deleteLater()
+        self._w.canvas.setFocus()
+
+    def event(self, event: QEvent) -> bool:
+        """Escape is the tour's own key while it has the keyboard."""
+        override = event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent)
+        if override and isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Escape:
+            event.accept()
+            return True
+        return super().event(event)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Escape ends the tour."""
+        if event.key() == Qt.Key.Key_Escape:
+            self.finish()
+        else:
+            event.ignore()
 
     def _next(self) -> None:
         self.finish() if self.at == len(STOPS) - 1 else self.go(self.at + 1)

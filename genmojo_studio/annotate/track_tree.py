@@ -75,7 +75,7 @@ class TrackTree(QTreeWidget):
         session.shown.connect(self._later.start)
         session.frame_changed.connect(self._frame_changed)
         self.verticalScrollBar().valueChanged.connect(self._frame_changed)
-        session.state.subscribe(self._dress, "theme")
+        self.destroyed.connect(session.state.subscribe(self._dress, "theme"))
         self.rebuild()
 
     def showEvent(self, event: object) -> None:

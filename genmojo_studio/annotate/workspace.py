@@ -5,8 +5,8 @@ from __future__ import annotations
 import getpass
 from pathlib import Path
 
-from PySide6.QtCore import Qt, QTimer
-from PySide6.QtGui import QCloseEvent
+from PySide6.QtCore import QPoint, Qt, QTimer
+from PySide6.QtGui import QCloseEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QDockWidget,
     QFrame,
@@ -79,6 +79,7 @@ class AnnotateWorkspace(QMainWindow):
         self.tour: Tour | None = None
         self._tour_waits = False
         self.step = 0
+        self._low = False  # whether the window is so low that the frame comes first
         self.setDockNestingEnabled(True)
         self.bar: StepBar = StepBar()
         self._tool_bar = QToolBar(tr("Steps"))
@@ -103,6 +104,7 @@ class AnnotateWorkspace(QMainWindow):
         self._steps_later = QTimer(self, singleShot=True, interval=150)
         self._steps_later.timeout.connect(self._show_steps)
         self.bar.chosen.connect(self.show_step)
+        self.bar.stride.lineEdit().returnPressed.connect(self.back_to_frame)
         self.bar.setEnabled(False)
 
     # ---- opening and closing
@@ -145,6 +147,7 @@ class AnnotateWorkspace(QMainWindow):
         scroll.setWidgetResizable(True)
         scroll.setFrameShape(QFrame.Shape.NoFrame)
         scroll.setMinimumWidth(250)
+        scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # it follows what has the keyboard inside it
         scroll.setWidget(self.pages)
         for name, widget in (("buttons", self.buttons), ("information", scroll), ("play", self.play)):
             self.docks[name].setWidget(widget)
@@ -180,6 +183,15 @@ class AnnotateWorkspace(QMainWindow):
         session.close()
         session.deleteLater()
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """A window that becomes low, or high again, takes the layout that belongs to it."""
+        super().resizeEvent(event)
+        low = self.height() <= _LOW
+        if low != self._low:
+            self._low = low
+            if self.session is not None:
+                QTimer.singleShot(0, self.restore_layout)
+
     def closeEvent(self, event: QCloseEvent) -> None:
         """Nothing is asked: everything is stored already."""
         self.close_clip()
@@ -200,8 +212,7 @@ class AnnotateWorkspace(QMainWindow):
         self.docks["information"].setWindowTitle(f"{tr('Information')}: {tr(step.title)}")
         self.strip.setVisible(step.name in ("refine", "review"))
         if step.name != "objects":
-            self.objects.show_tool(None)
-            self.work.use_tool(None)
+            self.objects.use_tool(None)
         tracks = self.session.annotation.tracks
         if place >= 2 and self.session.track is None and tracks:
             self.session.select_track(next(iter(tracks)))
@@ -226,13 +237,13 @@ class AnnotateWorkspace(QMainWindow):
 
     def _layout_name(self) -> str:
         """Layouts are kept per step, those of low windows by themselves: sizes of one make no sense in the other."""
-        return f"annotate-{STEPS[self.step].name}{'-low' if self.height() <= _LOW else ''}"
+        return f"annotate-{STEPS[self.step].name}{'-low' if self._low else ''}"
 
     def _size_docks(self) -> None:
         wide, high = max(self.width(), 1000), max(self.height(), 600)
         sizes = {"buttons": 194, "information": int(min(max(0.24 * wide, 310), 430))}
         self.resizeDocks([self.docks[n] for n in sizes], list(sizes.values()), Qt.Orientation.Horizontal)
-        share = 0.3 if high > _LOW else 0.24  # on small screens the frame comes first
+        share = 0.24 if self._low else 0.3
         self.resizeDocks([self.docks["play"]], [int(share * high)], Qt.Orientation.Vertical)
 
     def use_tool(self, tool: Tool | None) -> None:
@@ -259,18 +270,26 @@ class AnnotateWorkspace(QMainWindow):
         others = view.xy[view.ids != (session.track or -1)]
         self.points.show_meter(measure(frame, (x, y), session.mask_at(session.frame), session.active[0], others))
 
-    def next_panel(self) -> None:
-        """Move the keyboard on: frame, buttons, information, dope sheet, and around."""
+    def next_panel(self, step: int = 1) -> None:
+        """Move the keyboard on (-1: back): frame, steps, buttons, information, video play, and around."""
         page = self._by_name[STEPS[self.step].page]
-        stops: list[QWidget] = [self.canvas, self.buttons, page, self.play.sheet]
+        panels: list[QWidget] = [self.canvas, self.bar, self.buttons, page, self.play]
+        stops = [panel for panel in panels if panel.isVisible()]
         focus = self.focusWidget()
-        inside = (n for n, w in enumerate(stops) if focus is not None and (w is focus or w.isAncestorOf(focus)))
-        at = next(inside, -1)
-        target = stops[(at + 1) % len(stops)]
-        if target.focusPolicy() == Qt.FocusPolicy.NoFocus or target in (self.buttons, page):
-            target = next((c for c in target.findChildren(QWidget) if c.isVisible() and c.isEnabled()
-                           and c.focusPolicy() & Qt.FocusPolicy.TabFocus), target)  # fmt: skip
-        target.setFocus(Qt.FocusReason.ShortcutFocusReason)
+        holding = (n for n, w in enumerate(stops) if focus is not None and (w is focus or w.isAncestorOf(focus)))
+        at = next(holding, -1)
+        target = stops[(at + step) % len(stops)]
+        if target is not self.canvas:
+            inside = [c for c in target.findChildren(QWidget) if c.isVisible() and c.isEnabled()
+                      and c.focusPolicy() & Qt.FocusPolicy.TabFocus]  # fmt: skip
+            places = [c.mapTo(self, QPoint(0, 0)) for c in inside]
+            target = min(zip(places, inside, strict=True), key=lambda p: (p[0].y(), p[0].x()))[1] if inside else target
+        target.setFocus(Qt.FocusReason.TabFocusReason)
+
+    def back_to_frame(self) -> None:
+        """The keyboard belongs to the frame again; a drawing tool is put away."""
+        self.objects.use_tool(None)
+        self.canvas.setFocus(Qt.FocusReason.TabFocusReason)
 
     def start_tour(self) -> None:
         """Explain the annotator on the clip that is open, or on one made on the spot."""
@@ -306,7 +325,8 @@ class AnnotateWorkspace(QMainWindow):
         return next((n for n, lacks in enumerate(lacking) if lacks), len(STEPS) - 1)
 
     def _stored(self, seconds: float) -> None:
-        self.bar.saved.setText(tr("saved in {ms:.0f} ms").format(ms=1000 * seconds))
+        if self.session is not None and not self.session.project.read_only:  # else word of an earlier clip, too late
+            self.bar.saved.setText(tr("saved in {ms:.0f} ms").format(ms=1000 * seconds))
 
     def _theme_changed(self) -> None:
         if self.session is not None:

@@ -328,8 +328,8 @@
       <translation>Mit einer zweiten Person vergleichen</translation>
     </message>
     <message>
-      <source>What only they changed is taken over; of conflicts, what you choose. One step; it can be undone.</source>
-      <translation>Was nur dort geändert wurde, wird übernommen; bei Widersprüchen das, was Sie wählen. Ein Schritt, der zurückgenommen werden kann.</translation>
+      <source>What only they changed is taken over; of conflicts, what you choose (keys 1, 2, 3 for the row). One step; it can be undone.</source>
+      <translation>Was nur die anderen geändert haben, wird übernommen; bei Widersprüchen, was Sie wählen (Tasten 1, 2, 3 für die Zeile). Ein Schritt; er lässt sich zurücknehmen.</translation>
     </message>
     <message>
       <source>Merge</source>
@@ -486,6 +486,18 @@
     <message>
       <source>seen/cut</source>
       <translation>zu sehen/verdeckt</translation>
+    </message>
+    <message>
+      <source>At most</source>
+      <translation>Höchstens</translation>
+    </message>
+    <message>
+      <source> objects</source>
+      <translation> Objekte</translation>
+    </message>
+    <message>
+      <source> points each</source>
+      <translation> Punkte je Objekt</translation>
     </message>
     <message>
       <source>Choose</source>
@@ -812,6 +824,14 @@
       <translation>Prüfer</translation>
     </message>
     <message>
+      <source>Reject</source>
+      <translation>Verwerfen</translation>
+    </message>
+    <message>
+      <source>The track is given up; it stays in the project.</source>
+      <translation>Die Spur wird aufgegeben; sie bleibt im Projekt.</translation>
+    </message>
+    <message>
       <source>Time and effort may be exported</source>
       <translation>Zeit und Aufwand dürfen exportiert werden</translation>
     </message>
@@ -900,6 +920,18 @@
       <translation>Szene</translation>
     </message>
     <message>
+      <source>a folder of mine</source>
+      <translation>ein eigener Ordner</translation>
+    </message>
+    <message>
+      <source>CoTracker 3, downloaded by torch.hub</source>
+      <translation>CoTracker 3, von torch.hub geladen</translation>
+    </message>
+    <message>
+      <source>CoTracker 2, downloaded by torch.hub</source>
+      <translation>CoTracker 2, von torch.hub geladen</translation>
+    </message>
+    <message>
       <source>folder of CoTracker's source</source>
       <translation>Ordner mit dem Quelltext von CoTracker</translation>
     </message>
@@ -910,6 +942,14 @@
     <message>
       <source>I have read its licence, and this use is not commercial</source>
       <translation>Ich habe die Lizenz gelesen, und diese Nutzung ist nicht kommerziell</translation>
+    </message>
+    <message>
+      <source>Its code and weights may be downloaded and run</source>
+      <translation>Sein Code und seine Gewichte dürfen geladen und ausgeführt werden</translation>
+    </message>
+    <message>
+      <source>From</source>
+      <translation>Von</translation>
     </message>
     <message>
       <source>Source</source>
@@ -1870,6 +1910,10 @@
     <message>
       <source>Changing light</source>
       <translation>Wechselndes Licht</translation>
+    </message>
+    <message>
+      <source>Shading of what turns</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>Unseen views</source>
@@ -3098,6 +3142,22 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Setzt die Tastatur in den nächsten Bereich.</translation>
     </message>
     <message>
+      <source>Previous panel</source>
+      <translation>Voriges Fenster</translation>
+    </message>
+    <message>
+      <source>Moves the keyboard to the panel before.</source>
+      <translation>Gibt die Tastatur dem Fenster davor.</translation>
+    </message>
+    <message>
+      <source>Back to the frame</source>
+      <translation>Zurück zum Bild</translation>
+    </message>
+    <message>
+      <source>Gives the keyboard to the frame and puts drawing tools away.</source>
+      <translation>Gibt die Tastatur dem Bild und legt Zeichenwerkzeuge weg.</translation>
+    </message>
+    <message>
       <source>Point 1</source>
       <translation>Punkt 1</translation>
     </message>
@@ -3526,6 +3586,10 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Die Spur stimmt; sie wird gesperrt.</translation>
     </message>
     <message>
+      <source>Reject the track</source>
+      <translation>Spur verwerfen</translation>
+    </message>
+    <message>
       <source>Compare with a second annotator…</source>
       <translation>Mit einem zweiten Annotator vergleichen…</translation>
     </message>
@@ -3580,6 +3644,18 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Step 1; what is drawn replaces the object's mask.</source>
       <translation>Schritt 1; was gezeichnet wird, ersetzt die Maske des Objekts.</translation>
+    </message>
+    <message>
+      <source>Buttons</source>
+      <translation>Knöpfe</translation>
+    </message>
+    <message>
+      <source>Shows or hides this panel.</source>
+      <translation>Zeigt oder verbirgt dieses Fenster.</translation>
+    </message>
+    <message>
+      <source>Video play</source>
+      <translation>Wiedergabe</translation>
     </message>
     <message>
       <source>Step 1 of 4.</source>

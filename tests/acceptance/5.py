@@ -4,13 +4,14 @@
 
 Results are kept in DIR/results, so an interrupted run goes on where it stopped; --again measures anew. Scenes for the
 `scene` seeds are DIR/CLIP.h5; the first row that needs one makes it (`standard`, minutes). The rows of the widgets need
-a display and leave screenshots of the four steps in DIR. One seed per row.
+a display and leave screenshots of the four steps in DIR. One seed per row, three in those without a window.
 """
 
 from __future__ import annotations
 
 import json
 import re
+import shutil
 import sys
 from collections.abc import Callable
 from functools import partial
@@ -36,19 +37,30 @@ CLIPS, SEEDS = ("blender-cross", "blender-trio"), ("optical", "scene")
 
 def scene(bench: Bench, clip: str) -> Path:
     """The clip's optimised scene, made if it is not there."""
-    path = bench.work / f"{clip}.h5"
+    return _optimised(bench, clip, bench.work / f"{clip}.h5")
+
+
+def _optimised(bench: Bench, clip: str, path: Path, *more: str) -> Path:
+    """A scene, unless it is there; where a run was interrupted it goes on."""
+    run = path.with_suffix(".run")
     if not path.exists():
-        bench.python("-m", "genmojo_core.cli.main", "optimize", str(bench.data / clip), "-o", str(path))
+        again = ["--resume"] if any(run.glob("*checkpoint*")) else []
+        source = str(bench.data / clip)
+        bench.python("-m", "genmojo_core.cli.main", "optimize", source, "-o", str(path), "--run-dir", str(run), *again,
+                     *more)  # fmt: skip
     return path
 
 
 def data(bench: Bench, name: str, seeds: str) -> list[Check]:
-    """The simulated annotator without a window, frames held as the app holds them."""
+    """The simulated annotator without a window, frames held as the app holds them; three seeds, all tracks together."""
     clip, truth = simulated_annotator.full_hd(bench.data / name), simulated_annotator.truth_of(bench.data / name)
     seeder = SceneSeeder(scene(bench, name)) if seeds == "scene" else None
-    report = simulated_annotator.Person(clip, truth, seeder).run()
-    seconds = float(np.median(report.solve_seconds or [0.0]))
-    return _goals(float(np.median(report.keys)), float(np.median(report.errors)), report.right_states, seconds)
+    reports = [simulated_annotator.Person(clip, truth, seeder, seed).run() for seed in range(3)]
+    keys, errors, seconds = (np.concatenate([getattr(r, name) for r in reports])
+                             for name in ("keys", "errors", "solve_seconds"))  # fmt: skip
+    right = float(np.mean([r.right_states for r in reports]))
+    checks = _goals(float(np.median(keys)), float(np.median(errors)), right, float(np.median(seconds)))
+    return [*checks, *(Check(f"keys, seed {seed}", float(np.median(r.keys))) for seed, r in enumerate(reports))]
 
 
 def widgets(bench: Bench, name: str, seeds: str) -> list[Check]:
@@ -138,11 +150,14 @@ def loop(bench: Bench, name: str = "blender-trio") -> list[Check]:
     write_tracks(said, given)
     found = {}
     for title, more in (("without", []), ("with", ["--tracks", str(given)])):
-        path = bench.work / f"loop-{title}.h5"
-        command = [str(source), "-o", str(path), "--preset", "draft", "--ignore", "tracks", *more]
-        bench.python("-m", "genmojo_core.cli.main", "optimize", *command)
+        path = _optimised(
+            bench, name, bench.work / f"loop-{title}.h5", "--preset", "draft", "--ignore", "tracks", *more
+        )
         scores = bench.python("-m", "genmojo_core.cli.main", "evaluate", str(path), str(source), "--json")
         found[title] = json.loads(scores)
+    for title in found:
+        (bench.work / f"loop-{title}.h5").unlink()  # done: another time it is measured anew
+        shutil.rmtree(bench.work / f"loop-{title}.run", ignore_errors=True)
     checks = [Check(f"{key} {title}", found[title][key]) for key in ("ate", "oa") for title in found]
     return [*checks, Check("ate with / without", found["with"]["ate"] / found["without"]["ate"], 1.0, at_most=True)]
 
@@ -178,6 +193,10 @@ ROWS: Rows = {
     "kills": ("200 kill -9", lambda b: tests(b, 1, "tests/store/test_project_crash.py", "-k", "two_hundred")),
     "histories": ("50 x 1,000 edits undone and redone", lambda b: tests(b, 50, "tests/store/test_project.py", "-m",
                                                                         "slow")),
+    "keyboard": ("every control by keyboard, seen to have it", lambda b: tests(b, 12,
+                                                                               "tests/ui/annotate/test_keyboard.py")),
+    "mean-user": ("keys at random, files gone, read only, closed meanwhile", lambda b: tests(
+        b, 18, "tests/ui/annotate/test_mean_user.py")),
     "seed-dialog": ("CoTracker stand-in, Solve from scene", lambda b: tests(b, 4,
                                                                             "tests/ui/annotate/test_seed_dialog.py")),
 }  # fmt: skip

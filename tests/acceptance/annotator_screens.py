@@ -47,6 +47,7 @@ def main(clip: Path, out: Path, sizes: list[tuple[int, int]]) -> None:
             theme.apply(application, name)
             for size in sizes:
                 window.resize(*size)
+                QTest.qWait(200)  # without a window manager a size arrives some time later
                 window.settings.forget_layouts()
                 annotate.restore_layout()  # as delivered for that size
                 QTest.qWait(400)

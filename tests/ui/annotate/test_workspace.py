@@ -6,9 +6,12 @@ Not covered here: how good the trackers are (tests/trackers, tests/acceptance/5.
 import sys
 
 import numpy as np
+import pyqtgraph
 from annotating import at, choose_all, click, fill, place_points
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QMouseEvent
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
 
 from genmojo_core.store.npz import read_tracks
 from genmojo_core.store.project import Project
@@ -219,12 +222,12 @@ def test_all_that_can_be_pressed_has_a_name_and_takes_the_keyboard(workspace):
     assert not nameless
     workspace.canvas.setFocus()
     seen = set()
-    for _ in range(4):
+    panels = (workspace.canvas, workspace.bar, workspace.buttons, workspace.pages, workspace.play)
+    for _ in panels:
         workspace.table.trigger("annotate.move.panel")
         focus = workspace.focusWidget()
-        seen.add(next(n for n, w in enumerate((workspace.canvas, workspace.buttons, workspace.pages, workspace.play))
-                      if w is focus or w.isAncestorOf(focus)))  # fmt: skip
-    assert seen == {0, 1, 2, 3}
+        seen.add(next(n for n, w in enumerate(panels) if w is focus or w.isAncestorOf(focus)))
+    assert seen == {0, 1, 2, 3, 4}
 
 
 def test_repaints_do_not_lose_references_to_none(workspace, qapp):
@@ -317,3 +320,60 @@ def test_a_step_without_points_is_not_done_and_states_are_readable_in_both_theme
         workspace.state.set(theme=name)
         shade = workspace.review.tree.palette().text().color()
         qtbot.waitUntil(lambda shade=shade: item.foreground(1).color() == shade, timeout=60_000)
+
+
+def test_a_knot_of_a_curve_is_dragged_to_another_place(workspace, qtbot, monkeypatch):
+    """The key moves in the curve's own direction and by what the plot shows, nowhere else; undo takes it back."""
+    choose_all(workspace)
+    place_points(workspace, each=1)
+    fill(workspace)
+    workspace.show_step(2)
+    session, graphs = workspace.session, workspace.play.graphs
+    monkeypatch.setitem(pyqtgraph.CONFIG_OPTIONS, "mouseRateLimit", 0)  # moves of a test come in no time
+    workspace.play.tabs.setCurrentIndex(1)
+    graphs.choice.setCurrentIndex(1)  # y
+    qtbot.waitUntil(lambda: graphs.knots is not None and graphs.plot.isVisible(), timeout=60_000)
+    view, track, before = graphs.plot.getPlotItem().vb, session.track, session.annotation.digest()
+    x, y = session.annotation.track(track).xy[0].tolist()
+    session.go(9)
+
+    def pixel(value):
+        return graphs.plot.mapFromScene(view.mapViewToScene(QPointF(0.0, value)))
+
+    viewport = graphs.plot.viewport()
+    qtbot.waitUntil(lambda: viewport.rect().adjusted(5, 25, -5, -25).contains(pixel(y)), timeout=60_000)
+    start = pixel(y)
+    per_pixel = view.viewPixelSize()[1]
+    for kind, point, buttons in (
+        (QEvent.Type.MouseButtonPress, start, Qt.MouseButton.LeftButton),
+        *((QEvent.Type.MouseMove, start - QPoint(0, d), Qt.MouseButton.LeftButton) for d in (4, 8, 14, 20)),
+        (QEvent.Type.MouseButtonRelease, start - QPoint(0, 20), Qt.MouseButton.NoButton),
+    ):
+        button = Qt.MouseButton.NoButton if kind == QEvent.Type.MouseMove else Qt.MouseButton.LeftButton
+        place = QPointF(point)
+        event = QMouseEvent(kind, place, viewport.mapToGlobal(place), button, buttons, Qt.KeyboardModifier.NoModifier)
+        QApplication.sendEvent(viewport, event)
+    moved = session.annotation.track(track).xy[0].tolist()
+    assert session.frame == 0 and moved[0] == x
+    assert abs(moved[1] - y - 20 * per_pixel) <= 2 * per_pixel and moved[1] != y
+    qtbot.waitUntil(lambda: not workspace.work.tracker.tasks.busy, timeout=60_000)
+    session.undo()
+    assert session.annotation.digest() == before
+
+
+def test_a_track_is_rejected_and_limits_are_ones_own(workspace):
+    choose_all(workspace)
+    workspace.objects.limits["points"].setValue(6)
+    place_points(workspace, each=6)
+    session = workspace.session
+    assert {i.number for i in session.annotation.tracks.values()} == {1, 2, 3, 4, 5, 6}
+    fill(workspace)
+    workspace.show_step(3)
+    track = session.track
+    workspace.review.note.setText("cannot be told from its neighbour")
+    workspace.table.trigger("annotate.review.reject")
+    info = session.annotation.tracks[track]
+    assert (info.review, info.note, info.reviewer) == ("rejected", "cannot be told from its neighbour", "Ada")
+    assert session.track != track
+    session.undo()
+    assert session.annotation.tracks[track].review != "rejected"
