@@ -21,6 +21,7 @@ from genmojo_core.render.cpu.rasterize import rasterize
 from genmojo_core.render.rasterizer import ALPHA_MAX, Rendering, Splats
 
 NAMES = ("means", "quats", "scales", "opacities", "features")
+ALPHA_LIMIT = 0.99  # as METHOD.md has it, whatever the kernels were compiled with
 FULL = 300_000  # splats that each fill a screen
 
 
@@ -108,6 +109,20 @@ def stacks() -> str:
     return "finite, sums at most 1 and shows its first layer, for 16 stacks"
 
 
+def behind_opaque() -> str:
+    """What lies behind a splat of opacity 1 still shows a trace and has a say, or it could never come forward."""
+    colours = torch.tensor([[1.0, 0.0], [0.0, 1.0]])
+    splats = Splats(torch.tensor([[0.0, 0.0, 2.0], [0.0, 0.0, 3.0]]), torch.tensor([[1.0, 0, 0, 0]]).repeat(2, 1),
+                    torch.full((2, 3), 20.0), torch.tensor([1.0, 0.5]), colours)  # fmt: skip
+    picture, gradients = drawn(splats)
+    front, back = picture.features.detach()[12, 16].tolist()
+    hold(abs(front - ALPHA_LIMIT) < 1e-3, f"the splat in front shows {front:.4f} instead of {ALPHA_LIMIT}")
+    hold(abs(back - (1 - ALPHA_LIMIT) * 0.5) < 5e-4, f"the splat behind shows {back:.5f}")
+    hold(all(bool(torch.isfinite(g).all()) for g in gradients.values()), "no gradient")
+    hold(bool(gradients["features"][1].abs().max() > 0), "the splat behind has no gradient")
+    return f"{100 * back:.2f} % of it shows, with its gradient"
+
+
 def nothing() -> str:
     """No splat, and none in view: exact background, gradients 0."""
     picture, gradients = drawn(cloud(0))
@@ -168,6 +183,7 @@ CASES = (
     Case("N12", "opacities that show nothing", partial(hostile, "opacities", (0.0, 1e-30, 1 / 256, NAN))),
     Case("N05", "needles", needles),
     Case("N13", "stacks of splats", stacks),
+    Case("N13", "behind an opaque splat", behind_opaque),
     Case("N20", "no splat in view", nothing),
     Case("N08", "300,000 screen-filling splats", screen_filling),
     Case("N08", "an object that fills the screen", screen_filling_object),

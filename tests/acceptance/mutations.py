@@ -3,8 +3,7 @@
     python -m tests.acceptance.mutations [--only NAME]
 
 Guards inside compiled kernels are constants when those compile: each is taken away in a process of its own, which
-compiles anew into an empty cache. Not taken away are the budget of entries, whose case would fill the memory, and the
-clamp of alpha at 0.99, which no case notices: gradients stay finite without it.
+compiles anew into an empty cache. Not taken away is the budget of entries, whose case would fill the memory.
 """
 
 from __future__ import annotations
@@ -97,7 +96,10 @@ class Compiled:
     rows: tuple[str, ...]
 
 
-COMPILED = (Compiled("least alpha (compiled)", "ALPHA_MIN", 1e-30, ("N12", "N13", "N05")),)
+COMPILED = (
+    Compiled("least alpha (compiled)", "ALPHA_MIN", 1e-30, ("N12", "N13", "N05")),
+    Compiled("clamp of alpha (compiled)", "ALPHA_MAX", 1.0, ("N13",)),
+)
 CHILD = """
 import sys
 from genmojo_core.render import rasterizer
