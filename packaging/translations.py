@@ -3,8 +3,9 @@
     python packaging/translations.py            # update and compile
     python packaging/translations.py --check    # exit 1 if a text is missing, unfinished or not compiled
 
-Texts are the arguments of `tr("...")` and `mark("...")` in genmojo_studio, and those of the action tables. Qt's own
-lupdate does not know the action tables, so the source is read here; pyside6-lrelease compiles.
+Texts are the arguments of `tr("...")` and `mark("...")` in genmojo_studio, those of the action tables and of the effect
+plan (genmojo_core/effects/texts.py). Qt's own lupdate does not know such tables, so the source is read here;
+pyside6-lrelease compiles.
 """
 
 from __future__ import annotations
@@ -34,7 +35,9 @@ def source_texts() -> list[str]:
         for text in (action.text, action.help, *action.menu.split("/"), action.workspace.capitalize()):
             if text:
                 texts[text] = None
-    return list(texts)
+    from genmojo_core.effects.texts import TEXTS, UNITS
+
+    return list(texts | dict.fromkeys([*TEXTS.values(), *UNITS]))
 
 
 def update(language: str, texts: list[str]) -> list[str]:

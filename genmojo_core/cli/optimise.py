@@ -51,10 +51,14 @@ def add_commands(commands: Any) -> None:
 
 def run_effects(args: argparse.Namespace) -> dict[str, Any]:
     """The effect plan of a clip."""
+    from genmojo_core.effects.machine import known_costs
+
     config = configured(args)
     clip, plan = _prepare(args, config)
     expected = expectation(clip, plan, config)
-    return {"clip": clip.name, "frames": len(clip), "effects": plan.to_json(), "guesses": list(clip.guesses),
+    known = known_costs()
+    rows = [{**row, "known": known.get(row["name"])} for row in plan.to_json()]
+    return {"clip": clip.name, "frames": len(clip), "effects": rows, "guesses": list(clip.guesses),
             "preset": config.preset, "forecast": None if expected is None else expected.to_json()}  # fmt: skip
 
 

@@ -57,7 +57,7 @@ def run_tradeoff(args: argparse.Namespace) -> dict[str, Any]:
     from pathlib import Path
 
     from genmojo_core.cli.optimise import boxes_of
-    from genmojo_core.measure import tradeoff, tradeoff_page
+    from genmojo_core.measure import effect_costs, tradeoff, tradeoff_page
     from genmojo_core.measure.trials import Source
     from genmojo_core.store.atomic import check_writable
 
@@ -77,7 +77,9 @@ def run_tradeoff(args: argparse.Namespace) -> dict[str, Any]:
             tell(getattr(event, "progress", 0.0))
 
         rows, left = tradeoff.tradeoff(wanted, folder, hear)
-    return tradeoff_page.write(Path(args.clip).name, rows, left, folder)
+    report = tradeoff_page.write(Path(args.clip).name, rows, left, folder)
+    effect_costs.keep(report)
+    return report
 
 
 def _moments(text: str) -> tuple[float, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import cast, get_args
 
@@ -13,6 +13,7 @@ from genmojo_core.effects.evidence import Evidence, measure
 from genmojo_core.effects.plan import Effect, EffectName, EffectPlan
 from genmojo_core.effects.shape import RIGID_MODE, RIGID_OUTLINE
 from genmojo_core.effects.sides import unseen_share
+from genmojo_core.effects.texts import Said, sentence
 from genmojo_core.effects.upright import RIGID_LEAN, RIGID_STRETCH
 from genmojo_core.errors import GenmojoError
 
@@ -26,15 +27,15 @@ class Rule:
     """How one effect is decided: on when `value` reaches `threshold`.
 
     Args:
-        value: the number, in `unit`. origin: where the threshold comes from.
-        reason: one sentence about the number. lacking: why it cannot be switched on at all; empty if it can.
+        value: the number, in `unit`. origin: where the threshold comes from; reason: sentences about the number, both
+        by key (texts.py). lacking: why it cannot be switched on at all; empty if it can.
     """
 
     value: float
     unit: str
     threshold: float
-    origin: str
-    reason: str
+    origin: Said
+    reason: Sequence[Said]
     lacking: str = ""
 
 
@@ -58,8 +59,8 @@ def plan(clip: Clip, config: RunConfig, overrides: Mapping[str, bool] | None = N
         rule = _RULES[name](clip, config, evidence)
         ms, mb = predict(name, sizes, config)
         on = rule.value >= rule.threshold and not rule.lacking
-        effect = Effect(cast(EffectName, name), on, rule.value, rule.unit, rule.threshold, rule.origin, rule.reason,
-                        ms, mb)  # fmt: skip
+        effect = Effect(cast(EffectName, name), on, rule.value, rule.unit, rule.threshold, sentence([rule.origin]),
+                        sentence(rule.reason), ms, mb, said=tuple(rule.reason), origin_said=(rule.origin,))  # fmt: skip
         wanted = overrides.get(name, None if rule.lacking else overrides.get(ALL))
         effects.append(_overridden(effect, wanted, rule.lacking))
     return EffectPlan(tuple(with_bases(effect, config.motion_bases, effect.evidence) for effect in effects))
@@ -106,8 +107,8 @@ def _overridden(effect: Effect, wanted: bool | None, lacking: str) -> Effect:
     if wanted and lacking:
         raise GenmojoError("argument", f"'{effect.name}' cannot be switched on: {lacking}", "--effects",
                            f"leave out +{effect.name}")  # fmt: skip
-    said = f"Switched {'on' if wanted else 'off'} by the user. {effect.reason}"
-    return replace(effect, on=wanted, overridden=True, reason=said)
+    said: tuple[Said, ...] = (("switched_on" if wanted else "switched_off", {}), *effect.said)
+    return replace(effect, on=wanted, overridden=True, reason=sentence(said), said=said)
 
 
 def with_bases(effect: Effect, most: int, amount: float) -> Effect:
@@ -123,33 +124,31 @@ def with_bases(effect: Effect, most: int, amount: float) -> Effect:
 
 def _joint_occlusion(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
     percent = 100 * evidence.contact
-    said = _covers(clip, evidence) if evidence.covers else "No two objects ever touch"
-    return Rule(percent, "% of frames", 100 / max(len(clip), 1) - 1e-6, "one frame of contact is enough to hide",
-                f"{said}.")  # fmt: skip
+    said = _covers(clip, evidence) if evidence.covers else [("never_touch", {})]
+    return Rule(percent, "% of frames", 100 / max(len(clip), 1) - 1e-6, ("origin_contact", {}), said)
 
 
-def _covers(clip: Clip, evidence: Evidence) -> str:
-    """The longest cover in words, and how many there are besides."""
+def _covers(clip: Clip, evidence: Evidence) -> list[Said]:
+    """The longest cover, and how many there are besides."""
     longest = max(evidence.covers, key=lambda cover: len(cover.frames))
     front, back = (clip.object_names[k] for k in (longest.front, longest.back))
-    first, last = longest.frames[0], longest.frames[-1]
-    when = f"frame {first}" if first == last else f"frames {first} to {last}"
+    first, last = int(longest.frames[0]), int(longest.frames[-1])
+    values = {"front": front, "back": back, "first": first, "last": last}
     more = len(evidence.covers) - 1
-    besides = f", and {more} more such {'pair' if more == 1 else 'pairs'}" if more else ""
-    return f"'{front}' covers '{back}' where they touch ({when}){besides}"
+    said: list[Said] = [("covers_once" if first == last else "covers", values)]
+    return said + ([("one_more_pair" if more == 1 else "more_pairs", {"count": more})] if more else [])
 
 
 def _background(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
     percent = 100 * evidence.background
-    return Rule(percent, "% of pixels", 5.0, "less than a twentieth is left to the objects' edges",
-                f"{percent:.0f} % of all pixels show no object.",
+    return Rule(percent, "% of pixels", 5.0, ("origin_background", {}), [("background", {"percent": percent})],
                 "" if evidence.background > 0 else "every pixel belongs to an object")  # fmt: skip
 
 
 def _camera_motion(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
-    moves = f"The camera shifts the background by up to {evidence.camera:.1f} px"
-    return Rule(evidence.camera, "px at 256", 0.5, "half a pixel cannot be seen",
-                f"{moves if evidence.camera >= 0.5 else 'The camera stands still'} ({_source(clip.cameras)}).",
+    key = "camera_moves" if evidence.camera >= 0.5 else "camera_stands"
+    values = {"pixels": evidence.camera, "source": _source(clip.cameras)}
+    return Rule(evidence.camera, "px at 256", 0.5, ("origin_camera", {}), [(key, values)],
                 "" if clip.cameras is not None else "the clip has no cameras")  # fmt: skip
 
 
@@ -158,78 +157,68 @@ def _non_rigid_motion(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule
     worst = max(range(len(scores)), key=scores.__getitem__, default=0)
     value = scores[worst] if scores else 0.0
     name = clip.object_names[worst] if worst < len(clip.object_names) else str(worst + 1)
-    said = "Every object moves like a rigid body as far as flow and outlines show."
-    if value >= 1:
-        said = f"'{name}' bends {value:.1f} times as much as turning rigid objects seem to."
-    limits = (f"{100 * RIGID_MODE:.1f} % (fourth mode of flow) and {100 * RIGID_OUTLINE:.0f} % (outline) of their "
-              f"size, {100 * RIGID_STRETCH:.0f} % of height and {RIGID_LEAN:.2g} of lean")  # fmt: skip
-    return Rule(value, "x rigid", 1.0, f"rigid objects stay under {limits}", said,
+    said: Said = ("bends", {"name": name, "times": value}) if value >= 1 else ("rigid", {})
+    limits = {"mode": 100 * RIGID_MODE, "outline": 100 * RIGID_OUTLINE, "stretch": 100 * RIGID_STRETCH,
+              "lean": RIGID_LEAN}  # fmt: skip
+    return Rule(value, "x rigid", 1.0, ("origin_rigid", limits), [said],
                 "" if len(clip) > 1 else "a single frame has no motion")  # fmt: skip
 
 
 def _appearance_change(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
     percent = 100 * evidence.light
-    said = f"Brightness changes by {percent:.0f} % over the clip" if percent >= 8 else "The light stays the same"
-    return Rule(percent, "% brightness", 8.0, "steady light measures under 5 % on the shared clips", f"{said}.",
+    said: Said = ("light_changes", {"percent": percent}) if percent >= 8 else ("light_stays", {})
+    return Rule(percent, "% brightness", 8.0, ("origin_light", {}), [said],
                 "" if len(clip) > 1 else "a single frame has one light")  # fmt: skip
 
 
 def _shading(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
     degrees = max(evidence.turns, default=0.0)
-    said = f"An object turns by {degrees:.0f} degrees, the light does not" if degrees >= 20 else "No object turns much"
-    return Rule(degrees, "degrees", 20.0, "turned by 20 degrees, a surface gains or loses a third of the light",
-                f"{said}.", "" if len(clip) > 1 else "a single frame has one light")  # fmt: skip
+    said: Said = ("turns", {"degrees": degrees}) if degrees >= 20 else ("turns_little", {})
+    return Rule(degrees, "degrees", 20.0, ("origin_turns", {}), [said],
+                "" if len(clip) > 1 else "a single frame has one light")  # fmt: skip
 
 
 def _unseen_views(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
     installed = config.prior != "none"
     percent = 100 * max((unseen_share(sight, config.view_range) for sight in evidence.sights), default=0.0)
-    said = f"Looked at from up to {config.view_range:.0f} degrees aside, {percent:.0f} % of an object was never seen"
-    said += f"; the prior {config.prior} draws it." if installed else ", and no prior is installed to draw it."
-    return Rule(percent, "% of a view", 10.0, "the rim's own Gaussians close less than a tenth", said,
+    drawn: Said = ("prior_draws", {"prior": config.prior}) if installed else ("no_prior", {})
+    said: list[Said] = [("unseen", {"degrees": config.view_range, "percent": percent}), drawn]
+    return Rule(percent, "% of a view", 10.0, ("origin_unseen", {}), said,
                 "" if installed else "no prior is installed")  # fmt: skip
 
 
 def _instance_labels(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
-    said = f"{evidence.objects} objects must be kept apart" if evidence.objects > 1 else "There is one object only"
-    return Rule(float(evidence.objects), "objects", 2.0, "one object cannot be taken for another", f"{said}.")
+    said: Said = ("objects", {"count": evidence.objects}) if evidence.objects > 1 else ("one_object", {})
+    return Rule(float(evidence.objects), "objects", 2.0, ("origin_objects", {}), [said])
 
 
 def _depth_order(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
     percent = 100 * evidence.depth
-    return Rule(percent, "% of object pixels", 50.0, "half of the objects' pixels",
-                f"{percent:.0f} % of the objects' pixels have a depth ({_source(clip.depth)}).",
+    said: Said = ("depth", {"percent": percent, "source": _source(clip.depth)})
+    return Rule(percent, "% of object pixels", 50.0, ("origin_depth", {}), [said],
                 "" if clip.depth is not None else "the clip has no depth")  # fmt: skip
 
 
 def _flow(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
     percent = 100 * evidence.flow
-    said = f"Flow holds in {percent:.0f} % of the objects' pixels ({_source(clip.flow)})."
-    return Rule(percent, "% of object pixels", 20.0, "below a fifth wrong vectors outweigh right ones",
-                said if len(clip) > 1 else "A single frame has no motion.",
+    said: Said = ("flow", {"percent": percent, "source": _source(clip.flow)}) if len(clip) > 1 else ("no_motion", {})
+    return Rule(percent, "% of object pixels", 20.0, ("origin_flow", {}), [said],
                 "" if clip.flow is not None and len(clip) > 1 else "the clip has no flow")  # fmt: skip
 
 
 def _track_supervision(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
-    return Rule(evidence.corners, "corners per object", 4.0, "four points fix a similarity with one to spare",
-                f"Usually {evidence.corners:.0f} corners of an object can be followed.",
+    said: Said = ("corners", {"count": evidence.corners})
+    return Rule(evidence.corners, "corners per object", 4.0, ("origin_corners", {}), [said],
                 "" if len(clip) > 1 else "a single frame has no tracks")  # fmt: skip
 
 
 def _reappearance(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:
-    said = "No object is hidden and comes back"
-    if evidence.hidden:
-        said = f"An object is hidden for up to {_counted(evidence.hidden, 'frame')} and comes back"
-    return Rule(float(evidence.hidden), "frames", 1.0, "one frame without it must be bridged", f"{said}.")
-
-
-def _counted(number: int, noun: str) -> str:
-    """ "1 frame", "2 frames"."""
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+    key = "never_hidden" if not evidence.hidden else "hidden_once" if evidence.hidden == 1 else "hidden"
+    return Rule(float(evidence.hidden), "frames", 1.0, ("origin_hidden", {}), [(key, {"count": evidence.hidden})])
 
 
 def _source(channel: object) -> str:
-    """ "given" or "estimated", for a sentence."""
+    """ "given" or "estimated", keys of texts.py."""
     return "given" if getattr(channel, "given", False) else "estimated"
 
 

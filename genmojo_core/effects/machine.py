@@ -12,6 +12,7 @@ import platform
 import time
 from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -57,6 +58,24 @@ def load() -> Machine | None:
         return None
     sound = all(np.isfinite(v) and v > 0 for v in values.values())
     return Machine(**values) if sound else None
+
+
+def costs_file() -> Path:
+    """Where lies what effects cost and gained on this machine (measure/effect_costs.py)."""
+    return machine_file().with_name(f"{machine_file().stem}-effects.json")
+
+
+def known_costs() -> dict[str, dict[str, Any]]:
+    """Effect name -> `ms` per step, `psnr` in dB where known, `clip`: as the last report here measured; {} before."""
+    try:
+        stored = json.loads(costs_file().read_text())
+        return {
+            str(name): {"clip": str(row["clip"]), **{k: float(row[k]) for k in ("ms", "psnr") if k in row}}
+            for name, row in stored.items()
+            if np.isfinite(float(row["ms"]))
+        }
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return {}
 
 
 def contention() -> float:

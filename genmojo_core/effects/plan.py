@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
+from genmojo_core.effects.texts import Said
+
 EffectName = Literal[
     "joint_occlusion", "background", "camera_motion", "non_rigid_motion", "appearance_change", "shading",
     "unseen_views", "instance_labels", "depth_order", "flow", "track_supervision", "reappearance",
@@ -21,6 +23,8 @@ class Effect:
         evidence, unit: the number measured on the clip. threshold: it is on at or above this.
         origin: where the threshold comes from. reason: one plain sentence.
         ms_per_step, mb: predicted cost when on. overridden: the user decided, not the evidence.
+        said, origin_said: reason and origin as keys and values (texts.py), for other languages; empty where a run
+        changed its mind and only `reason` tells why.
         settings: numbers that go with it, e.g. {"motion_bases": 6}.
         measured_ms, measured_mb: what it did cost per step and in memory, once a run has measured it.
     """
@@ -38,6 +42,8 @@ class Effect:
     settings: Mapping[str, float] | None = None
     measured_ms: float | None = None
     measured_mb: float | None = None
+    said: tuple[Said, ...] = ()
+    origin_said: tuple[Said, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -59,6 +65,7 @@ class EffectPlan:
 
     def changed(self, name: EffectName, **changes: Any) -> EffectPlan:
         """The plan with fields of one effect replaced; KeyError for a name that is none."""
+        changes = {"said": (), **changes} if "reason" in changes else changes
         new = replace(self.get(name), **changes)
         return EffectPlan(tuple(new if effect.name == name else effect for effect in self.effects))
 

@@ -12,6 +12,7 @@ from PySide6.QtCore import QProcess, Qt, Signal
 from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QHeaderView, QTreeWidget, QTreeWidgetItem, QWidget
 
+from genmojo_core.effects.texts import sentence
 from genmojo_studio.translate import tr
 
 _AS_WIDE = QHeaderView.ResizeMode.ResizeToContents
@@ -124,24 +125,39 @@ class EffectsTable(QTreeWidget):
 
 
 def _item(row: Mapping[str, Any]) -> QTreeWidgetItem:
-    evidence = f"{row['evidence']:.3g} {row['unit']}"
+    evidence = f"{row['evidence']:.3g} {tr(str(row['unit']))}"
     bound = f"{row['threshold']:.3g}"
     sign = "≥" if row["evidence"] >= row["threshold"] else "<"
-    item = QTreeWidgetItem([_title(str(row["name"])), f"{evidence} {sign} {bound}", f"{row['ms_per_step']:.1f} ms"])
+    known = row.get("known")
+    cost = tr("{ms:.1f} ms measured").format(ms=known["ms"]) if known else f"{row['ms_per_step']:.1f} ms"
+    item = QTreeWidgetItem([_title(str(row["name"])), f"{evidence} {sign} {bound}", cost])
     item.setData(0, _NAME, row["name"])
     item.setCheckState(0, Qt.CheckState.Checked if row["on"] else Qt.CheckState.Unchecked)
     said = "\n".join(
         (
-            str(row["reason"]),
+            _words(row.get("said")) or str(row["reason"]),
             tr("Measured {evidence}; on from {bound} ({origin}).").format(
-                evidence=evidence, bound=bound, origin=row["origin"]
+                evidence=evidence, bound=bound, origin=_words(row.get("origin_said")) or row["origin"]
             ),
             tr("Costs about {ms:.1f} ms per step and {mb:.1f} MB.").format(ms=row["ms_per_step"], mb=row["mb"]),
+            *([_known(known)] if known else []),
         )
     )
     for column in range(3):
         item.setToolTip(column, said)
     return item
+
+
+def _known(known: Mapping[str, Any]) -> str:
+    """What a report on this machine measured of an effect."""
+    if "psnr" in known:
+        return tr("Measured on this machine on '{clip}': {ms:+.1f} ms per step, {psnr:+.2f} dB.").format(**known)
+    return tr("Measured on this machine on '{clip}': {ms:+.1f} ms per step.").format(**known)
+
+
+def _words(said: Sequence[Any] | None) -> str:
+    """What the plan says by key, in the person's language."""
+    return sentence([(str(key), values) for key, values in said or ()], tr)
 
 
 def _title(name: str) -> str:

@@ -1884,6 +1884,10 @@
       <translation>Median {value:.0f}</translation>
     </message>
     <message>
+      <source>Measured on this machine on '{clip}': {ms:+.1f} ms per step.</source>
+      <translation>Auf diesem Rechner an „{clip}“ gemessen: {ms:+.1f} ms je Schritt.</translation>
+    </message>
+    <message>
       <source>Effect</source>
       <translation>Effekt</translation>
     </message>
@@ -1894,6 +1898,14 @@
     <message>
       <source>Cost</source>
       <translation>Kosten</translation>
+    </message>
+    <message>
+      <source>{ms:.1f} ms measured</source>
+      <translation>{ms:.1f} ms gemessen</translation>
+    </message>
+    <message>
+      <source>Measured on this machine on '{clip}': {ms:+.1f} ms per step, {psnr:+.2f} dB.</source>
+      <translation>Auf diesem Rechner an „{clip}“ gemessen: {ms:+.1f} ms je Schritt, {psnr:+.2f} dB.</translation>
     </message>
     <message>
       <source>Joint occlusion</source>
@@ -1913,7 +1925,7 @@
     </message>
     <message>
       <source>Shading of what turns</source>
-      <translation type="unfinished" />
+      <translation>Schattierung beim Drehen</translation>
     </message>
     <message>
       <source>Unseen views</source>
@@ -3672,6 +3684,206 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Step 4 of 4.</source>
       <translation>Schritt 4 von 4.</translation>
+    </message>
+    <message>
+      <source>given</source>
+      <translation>gegeben</translation>
+    </message>
+    <message>
+      <source>estimated</source>
+      <translation>geschätzt</translation>
+    </message>
+    <message>
+      <source>Switched on by the user.</source>
+      <translation>Von Hand eingeschaltet.</translation>
+    </message>
+    <message>
+      <source>Switched off by the user.</source>
+      <translation>Von Hand ausgeschaltet.</translation>
+    </message>
+    <message>
+      <source>'{front}' covers '{back}' where they touch (frames {first} to {last}).</source>
+      <translation>„{front}“ verdeckt „{back}“, wo sie sich berühren (Bilder {first} bis {last}).</translation>
+    </message>
+    <message>
+      <source>'{front}' covers '{back}' where they touch (frame {first}).</source>
+      <translation>„{front}“ verdeckt „{back}“, wo sie sich berühren (Bild {first}).</translation>
+    </message>
+    <message>
+      <source>There is 1 more such pair.</source>
+      <translation>Es gibt noch ein solches Paar.</translation>
+    </message>
+    <message>
+      <source>There are {count} more such pairs.</source>
+      <translation>Es gibt noch {count} solche Paare.</translation>
+    </message>
+    <message>
+      <source>No two objects ever touch.</source>
+      <translation>Keine zwei Objekte berühren sich je.</translation>
+    </message>
+    <message>
+      <source>{percent:.0f} % of all pixels show no object.</source>
+      <translation>{percent:.0f} % aller Pixel zeigen kein Objekt.</translation>
+    </message>
+    <message>
+      <source>The camera shifts the background by up to {pixels:.1f} px ({source}).</source>
+      <translation>Die Kamera verschiebt den Hintergrund um bis zu {pixels:.1f} px ({source}).</translation>
+    </message>
+    <message>
+      <source>The camera stands still ({source}).</source>
+      <translation>Die Kamera steht still ({source}).</translation>
+    </message>
+    <message>
+      <source>Every object moves like a rigid body as far as flow and outlines show.</source>
+      <translation>Jedes Objekt bewegt sich wie ein starrer Körper, soweit Fluss und Umrisse es zeigen.</translation>
+    </message>
+    <message>
+      <source>'{name}' bends {times:.1f} times as much as turning rigid objects seem to.</source>
+      <translation>„{name}“ biegt sich {times:.1f}-mal so stark, wie es drehende starre Objekte zu tun scheinen.</translation>
+    </message>
+    <message>
+      <source>Brightness changes by {percent:.0f} % over the clip.</source>
+      <translation>Die Helligkeit ändert sich im Clip um {percent:.0f} %.</translation>
+    </message>
+    <message>
+      <source>The light stays the same.</source>
+      <translation>Das Licht bleibt gleich.</translation>
+    </message>
+    <message>
+      <source>An object turns by {degrees:.0f} degrees, the light does not.</source>
+      <translation>Ein Objekt dreht sich um {degrees:.0f} Grad, das Licht nicht.</translation>
+    </message>
+    <message>
+      <source>No object turns much.</source>
+      <translation>Kein Objekt dreht sich nennenswert.</translation>
+    </message>
+    <message>
+      <source>Looked at from up to {degrees:.0f} degrees aside, {percent:.0f} % of an object was never seen.</source>
+      <translation>Aus bis zu {degrees:.0f} Grad von der Seite betrachtet, wurden {percent:.0f} % eines Objekts nie gesehen.</translation>
+    </message>
+    <message>
+      <source>The prior {prior} draws it.</source>
+      <translation>Der Prior {prior} zeichnet es.</translation>
+    </message>
+    <message>
+      <source>No prior is installed to draw it.</source>
+      <translation>Kein Prior ist installiert, der es zeichnet.</translation>
+    </message>
+    <message>
+      <source>{count} objects must be kept apart.</source>
+      <translation>{count} Objekte müssen auseinandergehalten werden.</translation>
+    </message>
+    <message>
+      <source>There is one object only.</source>
+      <translation>Es gibt nur ein Objekt.</translation>
+    </message>
+    <message>
+      <source>{percent:.0f} % of the objects' pixels have a depth ({source}).</source>
+      <translation>{percent:.0f} % der Objektpixel haben eine Tiefe ({source}).</translation>
+    </message>
+    <message>
+      <source>Flow holds in {percent:.0f} % of the objects' pixels ({source}).</source>
+      <translation>Der Fluss gilt in {percent:.0f} % der Objektpixel ({source}).</translation>
+    </message>
+    <message>
+      <source>A single frame has no motion.</source>
+      <translation>Ein einzelnes Bild hat keine Bewegung.</translation>
+    </message>
+    <message>
+      <source>Usually {count:.0f} corners of an object can be followed.</source>
+      <translation>Meist lassen sich {count:.0f} Ecken eines Objekts verfolgen.</translation>
+    </message>
+    <message>
+      <source>No object is hidden and comes back.</source>
+      <translation>Kein Objekt wird verdeckt und kommt wieder.</translation>
+    </message>
+    <message>
+      <source>An object is hidden for 1 frame and comes back.</source>
+      <translation>Ein Objekt ist ein Bild lang verdeckt und kommt wieder.</translation>
+    </message>
+    <message>
+      <source>An object is hidden for up to {count} frames and comes back.</source>
+      <translation>Ein Objekt ist bis zu {count} Bilder lang verdeckt und kommt wieder.</translation>
+    </message>
+    <message>
+      <source>one frame of contact is enough to hide</source>
+      <translation>ein Bild mit Berührung genügt zum Verdecken</translation>
+    </message>
+    <message>
+      <source>less than a twentieth is left to the objects' edges</source>
+      <translation>weniger als ein Zwanzigstel bleibt den Rändern der Objekte überlassen</translation>
+    </message>
+    <message>
+      <source>half a pixel cannot be seen</source>
+      <translation>ein halbes Pixel sieht man nicht</translation>
+    </message>
+    <message>
+      <source>rigid objects stay under {mode:.1f} % (fourth mode of flow) and {outline:.0f} % (outline) of their size, {stretch:.0f} % of height and {lean:.2g} of lean</source>
+      <translation>starre Objekte bleiben unter {mode:.1f} % (vierte Mode des Flusses) und {outline:.0f} % (Umriss) ihrer Größe, {stretch:.0f} % der Höhe und {lean:.2g} Neigung</translation>
+    </message>
+    <message>
+      <source>steady light measures under 5 % on the shared clips</source>
+      <translation>stetiges Licht misst auf den Beispielclips unter 5 %</translation>
+    </message>
+    <message>
+      <source>turned by 20 degrees, a surface gains or loses a third of the light</source>
+      <translation>um 20 Grad gedreht, gewinnt oder verliert eine Fläche ein Drittel des Lichts</translation>
+    </message>
+    <message>
+      <source>the rim's own Gaussians close less than a tenth</source>
+      <translation>weniger als ein Zehntel schließen die Gaussians am Rand selbst</translation>
+    </message>
+    <message>
+      <source>one object cannot be taken for another</source>
+      <translation>ein Objekt lässt sich nicht mit einem anderen verwechseln</translation>
+    </message>
+    <message>
+      <source>half of the objects' pixels</source>
+      <translation>die Hälfte der Objektpixel</translation>
+    </message>
+    <message>
+      <source>below a fifth wrong vectors outweigh right ones</source>
+      <translation>unter einem Fünftel überwiegen falsche Vektoren</translation>
+    </message>
+    <message>
+      <source>four points fix a similarity with one to spare</source>
+      <translation>vier Punkte legen eine Ähnlichkeit fest, einer mehr als nötig</translation>
+    </message>
+    <message>
+      <source>one frame without it must be bridged</source>
+      <translation>ein Bild ohne das Objekt muss überbrückt werden</translation>
+    </message>
+    <message>
+      <source>% of frames</source>
+      <translation>% der Bilder</translation>
+    </message>
+    <message>
+      <source>% of pixels</source>
+      <translation>% der Pixel</translation>
+    </message>
+    <message>
+      <source>x rigid</source>
+      <translation>x starr</translation>
+    </message>
+    <message>
+      <source>% brightness</source>
+      <translation>% Helligkeit</translation>
+    </message>
+    <message>
+      <source>degrees</source>
+      <translation>Grad</translation>
+    </message>
+    <message>
+      <source>% of a view</source>
+      <translation>% einer Ansicht</translation>
+    </message>
+    <message>
+      <source>% of object pixels</source>
+      <translation>% der Objektpixel</translation>
+    </message>
+    <message>
+      <source>corners per object</source>
+      <translation>Ecken je Objekt</translation>
     </message>
   </context>
 </TS>
