@@ -371,6 +371,7 @@ class SceneView(QWidget):
                 if not self._later.isActive():
                     self._later.start(math.ceil(1e3 * wait))
                 return
+            self._later.stop()
             self._drawn_at = now
             self.surface.show_frame(self._request(moving=self._rest.isActive()))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from typing import Any
 
 from PySide6.QtCore import QObject
@@ -22,6 +23,7 @@ class Considerate(QObject):
         self._view = view
         self._pace = Pace()
         self._seconds: float | None = None  # of the run at its last step
+        self._used = time.process_time()  # of this process then
         view.frame_drawn.connect(self._drew)
         client.event_received.connect(self._heard)
         client.state_changed.connect(self._entered)
@@ -35,12 +37,15 @@ class Considerate(QObject):
         self._pace.drew(report.ms / 1e3)
 
     def _heard(self, event: dict[str, Any]) -> None:
+        if event.get("event") == "StageStarted":
+            self._pace.another_stage()
         if event.get("event") != "Step":
             return
         seconds, before = float(event["seconds"]), self._seconds
+        used, self._used = time.process_time() - self._used, time.process_time()
         self._seconds = seconds
         if before is not None and seconds > before:
-            self._pace.stepped(seconds - before)
+            self._pace.stepped(seconds - before, used)
             self._view.set_pace(self._pace.interval)
 
     def _entered(self, state: str) -> None:

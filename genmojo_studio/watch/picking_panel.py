@@ -137,6 +137,7 @@ class PickingPanel(QWidget):
         plot.addItem(self._here, ignoreBounds=True)
         if self.trajectory is None:
             return
+        plot.setXRange(1, max(self._state.frame_count, 2))
         what = str(self.what.currentData())
         for i, (name, values) in enumerate(self.trajectory.curves(what).items()):
             colour = ("#e0524d", "#3fa45b", "#4f8fe0")[i] if what == "colour" else SERIES[i]

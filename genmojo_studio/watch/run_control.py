@@ -14,7 +14,7 @@ from genmojo_studio.view3d.snapshot import SceneSnapshot
 from genmojo_studio.watch.run_log import RunLog
 from genmojo_studio.worker.client import WorkerClient
 from genmojo_studio.worker.death import DeathReport
-from genmojo_studio.worker.protocol import RunRequest
+from genmojo_studio.worker.protocol import ENDED, RunRequest
 from genmojo_studio.worker.runs import SCENE
 
 LIVE = ("starting", "ready", "running", "paused", "stepping", "stopping", "finishing", "lost")
@@ -172,6 +172,18 @@ class RunControl(QObject):
         scene = self.scene_path
         if state == "done" and scene is not None and scene.exists():
             self.ended.emit(scene)
+        if state in ENDED:
+            self._answer_wanted(scene if state == "done" else None)
+
+    def _answer_wanted(self, scene: Path | None) -> None:
+        """The run is over: who waits for its scene gets the last one, or is told that there is none."""
+        wanted, self._wanted = self._wanted, []
+        if scene is not None and scene.exists():
+            for _, then in wanted:
+                then(scene)
+        elif wanted:
+            self.failed.emit(GenmojoError("io", "the run ended before its scene was written", str(self.run_dir),
+                                          "resume the run and try again"))  # fmt: skip
 
     def _event(self, event: dict[str, Any]) -> None:
         points = len(self.log.accuracy)

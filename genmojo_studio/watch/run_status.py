@@ -127,7 +127,7 @@ class RunStatus(QWidget):
             parts.append(f"{log.accuracy[-1][2]:.2f} dB")
         if log.memory:
             parts.append(f"{log.memory[-1][1]:.0f} MB")
-        if self._control.view_cost:
+        if self._control.view_cost and self._control.live:
             parts.append(tr("the view costs {share:.1f} %").format(share=self._control.view_cost * 100))
         self.figures.setText("  ·  ".join(parts))
         warnings = [mark.text for mark in log.marks if mark.kind == "warning"]

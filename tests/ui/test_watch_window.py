@@ -168,6 +168,19 @@ def test_a_measurement_that_was_cut_short_keeps_nothing_from_the_view(watch, end
     assert watch.view.snapshot is newer
 
 
+@pytest.mark.parametrize("end", ["done", "failed"])
+def test_an_export_that_waits_for_the_run_is_answered_when_the_run_ends(watch, told, tmp_path, monkeypatch, end):
+    control, got = watch.control, []
+    monkeypatch.setattr(control.client, "write_scene", lambda path: 1)
+    control.client.run_dir = str(tmp_path)  # where scene.h5 lies
+    control.scene_so_far(got.append)
+    control.client.state_changed.emit(end)
+    if end == "done":
+        assert got == [tmp_path / "scene.h5"] and not told
+    else:
+        assert not got and len(told) == 1 and "before its scene was written" in told[0][1]
+
+
 def test_while_a_run_goes_on_frames_keep_a_pace(watch, qtbot):
     client, moments = watch.control.client, []
     watch.view.frame_drawn.connect(lambda _: moments.append(time.monotonic()))
