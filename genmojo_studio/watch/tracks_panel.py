@@ -158,7 +158,7 @@ class TracksPanel(QWidget):
         second = self.sets.sets.get(str(self.reference.currentData()))
         self.worst.clear()
         self._apart = None
-        self.said.setText("")
+        self.said.setText("" if self.sets.sets else tr("Import tracks, or place points in the workspace Annotate."))
         if first is None or second is None or first is second:
             self.plot.draw()
             return

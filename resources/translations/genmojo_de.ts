@@ -2464,6 +2464,10 @@
       <translation>gegen</translation>
     </message>
     <message>
+      <source>Import tracks, or place points in the workspace Annotate.</source>
+      <translation>Spuren einlesen oder im Bereich Annotieren Punkte setzen.</translation>
+    </message>
+    <message>
       <source>Of the clip</source>
       <translation>Des Clips</translation>
     </message>
