@@ -33,7 +33,8 @@ def give_way() -> None:
         helpers = (one.native_id for one in threading.enumerate() if one.name.startswith(HELPERS))
         for number in (threading.get_native_id(), *helpers):
             with contextlib.suppress(ProcessLookupError):  # it has ended meanwhile
-                os.setpriority(os.PRIO_PROCESS, number or 0, _NICENESS)
+                if os.getpriority(os.PRIO_PROCESS, number or 0) < _NICENESS:  # nobody may go back up
+                    os.setpriority(os.PRIO_PROCESS, number or 0, _NICENESS)
 
 
 class _Job:
