@@ -25,11 +25,17 @@ class Pace:
     """Told of every frame and every step; `interval` seconds should lie between two frames."""
 
     interval: float = FIRST
-    share: float = 0.0  # of a step that drawing adds, as last measured
     _drawn: float = 0.0
+    _slower: float = 0.0  # how much longer a busy step takes, as last measured
+    _recent: deque[bool] = field(default_factory=lambda: deque(maxlen=_KEPT))  # was it a busy step?
     _busy: Steps = field(default_factory=lambda: deque(maxlen=_KEPT))
     _calm: Steps = field(default_factory=lambda: deque(maxlen=_KEPT))
     _fresh: int = 0  # busy steps since the interval last changed
+
+    @property
+    def share(self) -> float:
+        """What drawing adds to the run's time now: nothing for a view that stands still."""
+        return self._slower * sum(self._recent) / max(len(self._recent), 1)
 
     def drew(self, seconds: float) -> None:
         """A frame took so long."""
@@ -39,11 +45,12 @@ class Pace:
         """Steps take another time from now on: nothing is known about them."""
         self._busy.clear()
         self._calm.clear()
-        self.share, self._fresh = 0.0, 0
+        self._slower, self._fresh = 0.0, 0
 
     def stepped(self, seconds: float, used: float) -> None:
         """A step took so long, by the optimiser's clock; meanwhile the window used so many processor seconds."""
         share, self._drawn = self._drawn / max(seconds, 1e-9), 0.0
+        self._recent.append(share >= BUSY)
         if share <= CALM:
             self._calm.append((seconds, used))
         elif share >= BUSY:
@@ -56,7 +63,7 @@ class Pace:
         """Fewer frames while they cost more than MOST, more while they cost next to nothing."""
         slower = _median(self._busy, 0) / _median(self._calm, 0) - 1.0
         most = _median(self._busy, 1) / _median(self._busy, 0)
-        self.share = max(0.0, min(slower, most))
+        self._slower = max(0.0, min(slower, most))
         if self.share > MOST:
             self.interval = min(self.interval * 1.25, SLOWEST)
         elif self.share < MOST / 3:

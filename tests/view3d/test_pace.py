@@ -29,6 +29,16 @@ def test_frames_lie_farther_apart_while_they_cost_much_and_come_back():
     assert pace.interval == FASTEST
 
 
+def test_a_view_that_stands_still_costs_nothing():
+    pace = Pace()
+    steps(pace, 20, 0.1, 0.0, 1.0)
+    steps(pace, 20, 0.1, 0.5, 1.2)
+    steps(pace, 10, 0.1, 0.0, 1.0)
+    assert pace.share == pytest.approx(0.1)  # half of the last steps were slowed by a fifth
+    steps(pace, 10, 0.1, 0.0, 1.0)
+    assert pace.share == 0.0
+
+
 def test_steps_of_another_stage_are_not_compared():
     pace = Pace()
     steps(pace, 20, 0.1, 0.0, 1.0)
