@@ -14,12 +14,13 @@ from genmojo_core.config import PRESETS, RunConfig
 from genmojo_core.effects.auto import AUTO_SECONDS, for_budget
 from genmojo_core.effects.costs import run_sizes
 from genmojo_core.effects.difficulty import Difficulty
-from genmojo_core.effects.forecast import foretold, work_of
+from genmojo_core.effects.forecast import Forecast, foretold, work_of
 from genmojo_studio.state import AppState
 from genmojo_studio.translate import tr
 from genmojo_studio.watch import forecast
 from genmojo_studio.watch.controls import dim, number, set_role
 from genmojo_studio.watch.effects_table import EffectsTable
+from genmojo_studio.watch.run_log import RunLog
 from genmojo_studio.worker.protocol import RunRequest
 
 _NO_LIMIT = 1e9  # seconds: JSON knows no infinity
@@ -37,6 +38,8 @@ class RunSetup(QWidget):
         super().__init__(parent)
         self._state = state
         self._measured_for: tuple[object, ...] | None = None
+        self._asked: Forecast | None = None  # what was expected of the run that was asked for last
+        self._came = ""
         self.preset = QComboBox()
         texts = (tr("Draft"), tr("Standard"), tr("Full (as the paper)"), tr("Best for the budget"))
         for name, text in zip((*PRESETS, AUTO), texts, strict=True):
@@ -109,6 +112,7 @@ class RunSetup(QWidget):
         """What to ask the worker for; None without a clip."""
         if self._state.clip_path is None:
             return None
+        self._asked, self._came = self._foretold(self._state.clip), ""
         changes = {"budget_seconds": self._budget(), "device": str(self.device.currentData())}
         return RunRequest(
             clip=str(self._state.clip_path),
@@ -118,6 +122,21 @@ class RunSetup(QWidget):
             look_at=self._state.frame,
             masks=str(self._state.masks_path or ""),
         )
+
+    def came(self, log: RunLog) -> None:
+        """A run has ended: what was expected of it beside what came; nothing where nothing was expected."""
+        if self._asked is None or not log.accuracy:
+            return
+        self._came = tr(
+            "The last run: expected {time} and {psnr:.1f} dB, took {took}, {got:.1f} dB on pixels that were held out."
+        ).format(
+            time=forecast.spoken(self._asked.seconds),
+            psnr=self._asked.decibel,
+            took=forecast.spoken(log.now),
+            got=log.accuracy[-1][2],
+        )
+        self._asked = None
+        self._tell()
 
     @property
     def _preset(self) -> str:
@@ -153,24 +172,31 @@ class RunSetup(QWidget):
         if told.too_large:
             text += " " + tr("That is more than this machine has free: choose a smaller preset.")
         edited = [tr("The run uses the masks that were corrected here.")] if self._state.masks_path else []
-        self._say("\n".join([text, *edited, *self.effects.guesses]), "bad" if told.too_large else "dim")
+        came = [self._came] if self._came else []
+        self._say("\n".join([text, *came, *edited, *self.effects.guesses]), "bad" if told.too_large else "dim")
 
     def _expected(self, clip: Clip) -> str:
-        """Seconds and dB to expect with the budget and the effects as they are chosen now; "" before they are known."""
-        basis = self.effects.expected
-        if not basis:
+        """Seconds and dB to expect, in words; "" before they are known."""
+        told = self._foretold(clip)
+        if told is None:
             return ""
-        config = self.config()
-        on = [row["name"] for row in self.effects.chosen() if row["on"]]
-        size, window = fitted(clip.source_size, config.short_side), basis.get("window")
-        work = work_of(size, len(clip), clip.objects, on, config, window)
-        told = foretold(work, Difficulty(**basis["clip"]), config, float(basis["factor"]))
         return tr("Expected: {time} (± {spread}), {psnr:.1f} dB (± {error:.1f}), ").format(
             time=forecast.spoken(told.seconds),
             spread=forecast.spoken(told.seconds_error),
             psnr=told.decibel,
             error=told.decibel_error,
         )
+
+    def _foretold(self, clip: Clip | None) -> Forecast | None:
+        """What to expect with the budget and the effects as they are chosen now; None before it is known."""
+        basis = self.effects.expected
+        if not basis or clip is None:
+            return None
+        config = self.config()
+        on = [row["name"] for row in self.effects.chosen() if row["on"]]
+        size, window = fitted(clip.source_size, config.short_side), basis.get("window")
+        work = work_of(size, len(clip), clip.objects, on, config, window)
+        return foretold(work, Difficulty(**basis["clip"]), config, float(basis["factor"]))
 
     def _forecast(self, clip: Clip) -> forecast.Forecast:
         config = self.config()

@@ -299,6 +299,7 @@ class WatchWorkspace(QMainWindow):
         self.curves.show_log(self.control.log)
 
     def _run_ended(self, scene: Path) -> None:
+        self.setup.came(self.control.log)
         self.session.open_scene(scene)
 
     def _resume(self) -> None:

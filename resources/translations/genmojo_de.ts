@@ -2272,6 +2272,10 @@
       <translation>Es wird gemessen, was der Clip verlangt …</translation>
     </message>
     <message>
+      <source>The last run: expected {time} and {psnr:.1f} dB, took {took}, {got:.1f} dB on pixels that were held out.</source>
+      <translation>Der letzte Lauf: erwartet {time} und {psnr:.1f} dB, gedauert {took}, {got:.1f} dB auf zurückgehaltenen Pixeln.</translation>
+    </message>
+    <message>
       <source>no limit</source>
       <translation>unbegrenzt</translation>
     </message>

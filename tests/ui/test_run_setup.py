@@ -8,6 +8,8 @@ from PySide6.QtCore import Qt
 from genmojo_core.config import PRESETS, preset
 from genmojo_core.effects import auto, decide
 from genmojo_studio.state import AppState
+from genmojo_studio.watch.forecast import spoken
+from genmojo_studio.watch.run_log import RunLog
 from genmojo_studio.watch.run_setup import RunSetup
 from genmojo_studio.worker.protocol import RunRequest
 from tests.optimise.small_runs import small_clip
@@ -57,3 +59,22 @@ def test_best_for_the_budget_asks_for_what_the_command_line_would(qapp, tmp_path
     setup.preset.setCurrentIndex(setup.preset.findData("draft"))
     setup.preset.activated.emit(setup.preset.currentIndex())
     assert setup.budget.minimum() == 0 and setup.request().changes["budget_seconds"] == 70.0
+
+
+def test_after_a_run_what_was_expected_stands_beside_what_came(qapp, tmp_path):
+    state, clip = AppState(), small_clip()
+    setup = RunSetup(state)
+    state.open_clip(clip, tmp_path)
+    setup.preset.setCurrentIndex(setup.preset.findData("draft"))
+    setup.effects.show_rows(decide.plan(clip, PRESETS["draft"]).to_json())
+    log = RunLog.of_scene([{"seconds": 41.0, "step": 300, "psnr_held_out": 27.25}])
+    setup.came(log)
+    assert "last run" not in setup.said.text()  # nobody asked for one
+    setup.effects.expected = EXPECTED
+    setup.effects.measured.emit()
+    seconds, decibel = told(setup)
+    setup.request()
+    setup.came(log)
+    assert f"expected {spoken(seconds)} and {decibel:.1f} dB, took {spoken(41.0)}, 27.2 dB" in setup.said.text()
+    setup.request()
+    assert told(setup) == (seconds, decibel)
