@@ -20,6 +20,7 @@ import llvmlite
 import llvmlite.binding
 import numba
 from numba.core import types
+from numba.core.caching import FunctionCache
 
 from genmojo_core.kernels.pieces import KernelCompiler, PieceCompiler
 
@@ -38,6 +39,19 @@ _JIT: Any = numba.njit  # its stub does not know every option
 _OPTIONS = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True, "_nrt": False}
 
 
+class KernelCache(FunctionCache):
+    """Compiled code on disk, loaded without numba's library of array functions.
+
+    numba would import and register it all before it looks for the code: two fifths of a start. Only a compilation needs
+    it, and asks for it itself.
+    """
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """The compiled code for a signature, None where there is none yet."""
+        with self._guard_against_spurious_io_errors():
+            return self._load_overload(sig, target_context)
+
+
 def kernel(function: Callable) -> Any:
     """Compile on first call, without the interpreter lock, kept on disk where a folder can be written.
 
@@ -50,7 +64,9 @@ def kernel(function: Callable) -> Any:
     before = settings.CACHE_DIR
     settings.CACHE_DIR = str(folder)  # read while the function is declared, so it can be put back at once
     try:
-        return _JIT(cache=True, pipeline_class=KernelCompiler, **_OPTIONS)(function)
+        compiled = _JIT(pipeline_class=KernelCompiler, **_OPTIONS)(function)
+        compiled._cache = KernelCache(function)
+        return compiled
     finally:
         settings.CACHE_DIR = before
 

@@ -303,32 +303,39 @@ def select8(typingctx: Any, mask: types.Type, a: types.Type, b: types.Type) -> A
 _EXP2 = np.array(
     [12582912.0, 1.326472606e-3, 9.671513044e-3, 5.55073375e-2, 0.2402224208, 0.6931469776, 1.0], np.float32
 )  # fmt: skip
-EXP2_FLOATS = 8 * len(_EXP2)  # size of the table that exp2_8 reads
+EXP2_FLOATS = 8 * len(_EXP2)  # size of the table that exp2_table reads
 
 
 @inlined
 def prepare_exp2(table: np.ndarray) -> None:
-    """Write exp2_8's constants to the first EXP2_FLOATS elements of a flat float32 array.
+    """Write the constants of 2**x to the first EXP2_FLOATS elements of a flat float32 array.
 
-    From memory they enter the arithmetic as operands; as literals LLVM would fetch the address of each one anew.
+    From memory they stay in registers or enter the arithmetic as operands; as literals LLVM would fetch the address of
+    each one anew.
     """
     for i in range(EXP2_FLOATS):
         table[i] = _EXP2[i >> 3]
 
 
+@inlined
+def exp2_table(table: np.ndarray) -> tuple:
+    """The constants that exp2_8 wants, from an array filled by `prepare_exp2`."""
+    return (
+        load8(table, 0), load8(table, 8), load8(table, 16), load8(table, 24),
+        load8(table, 32), load8(table, 40), load8(table, 48),
+    )  # fmt: skip
+
+
 @instruction
 def exp2_8(typingctx: Any, value: types.Type, table: types.Type) -> Any:
-    """2**x per lane for -125 <= x <= 125, relative error 2e-7; `table` from `prepare_exp2`.
+    """2**x per lane for -125 <= x <= 125, relative error 2e-7; `table` from `exp2_table`.
 
     Adding 1.5 * 2**23 rounds x to the integer n; a polynomial gives 2**(x - n) and n is added to the exponent bits.
     """
 
     def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         x, table = arguments
-        constants = []
-        for row in range(len(_EXP2)):
-            at = ir.Constant(ir.IntType(64), row * LANES)
-            constants.append(builder.load(pointer(context, builder, signature.args[1], table, at), align=4))
+        constants = [builder.extract_value(table, row) for row in range(len(_EXP2))]
         shifted = builder.fadd(x, constants[0])
         rest = builder.fsub(x, builder.fsub(shifted, constants[0]))
         power = constants[1]

@@ -43,7 +43,7 @@ def run_jobs(job: Callable[[int], object], count: int) -> None:
     Every thread takes the next number as soon as it is free, so one that wakes late costs nothing but its own share.
     Raises what a job raised, after all threads have stopped.
     """
-    helpers = min(get_threads(), count) - 1
+    helpers = 0 if getattr(_local, "alone", False) else min(get_threads(), count) - 1
     numbers = counter()
 
     def work() -> None:
@@ -59,6 +59,24 @@ def run_jobs(job: Callable[[int], object], count: int) -> None:
             one.exception()
     for one in started:
         one.result()
+
+
+def run_whole(job: Callable[[int], object], count: int) -> None:
+    """The same for large jobs that use threads themselves: as long as every thread has one, they keep to it.
+
+    The last ones, fewer than the threads, share all threads.
+    """
+
+    def alone(index: int) -> None:
+        before, _local.alone = getattr(_local, "alone", False), True
+        try:
+            job(index)
+        finally:
+            _local.alone = before
+
+    whole = count - count % get_threads()
+    run_jobs(alone, whole)
+    run_jobs(lambda index: job(whole + index), count - whole)
 
 
 def run_ranges(kernel: Callable[[int, int], object], size: int, chunk: int) -> None:

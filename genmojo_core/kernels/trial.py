@@ -10,6 +10,7 @@ from genmojo_core.kernels.lane_bits import bits, trailing_zeros
 from genmojo_core.kernels.simd import (
     EXP2_FLOATS,
     exp2_8,
+    exp2_table,
     fma,
     load8,
     prepare_exp2,
@@ -26,7 +27,7 @@ def _trial(values: np.ndarray, out: np.ndarray, table: np.ndarray) -> int:
     x = load8(values, 0)
     positive = x > np.float32(0)
     for row in range(8):
-        store8(out, 8 * row, select8(positive, exp2_8(x, table), fma(x, np.float32(0), np.float32(1))))
+        store8(out, 8 * row, select8(positive, exp2_8(x, exp2_table(table)), fma(x, np.float32(0), np.float32(1))))
     store8(out, 0, sum_rows(out, 0))
     return trailing_zeros(bits(positive))
 

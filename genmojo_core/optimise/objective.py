@@ -16,11 +16,12 @@ from genmojo_core.optimise import losses
 from genmojo_core.optimise.joint_loss import Wanted, data_terms
 from genmojo_core.optimise.regularise import Neighbours, nearest, rigidity, scale_terms
 from genmojo_core.optimise.targets import FrameTargets, Targets
-from genmojo_core.render.backend import Splat
+from genmojo_core.render.backend import Splat, splat_frames
 from genmojo_core.render.rasterizer import Rendering, Splats
 from genmojo_core.scene import safemath
 from genmojo_core.scene.scene4d import ObjectState, Scene4D
 
+States = dict[int, list[ObjectState]]  # of all objects, by frame
 SAMPLED_ROWS = 1024  # Gaussians per object and step that the neighbour terms look at
 
 
@@ -88,9 +89,7 @@ class Objective:
         states = dict(zip(needed, self.scene.states(needed, deform), strict=True))
         terms: dict[str, Tensor] = {}
         held_out, foreground, light = [], [], []
-        for t in frames:
-            after = states.get(t + 1)
-            target, rendering = self._compared(t, states[t], after)
+        for t, (target, rendering) in zip(frames, self._compared(frames, states), strict=True):
             with torch.set_grad_enabled(self.compares_windows):
                 similar = losses.similarity(rendering, target)
             for name, value in self._data_terms(t, states[t], rendering, target, similar).items():
@@ -112,32 +111,30 @@ class Objective:
 
     def picture(self, t: int, deform: bool) -> Tensor:
         """Colours (H, W, 3) of frame t as the scene stands, whether or not the frame is in any loss."""
-        states = self.scene.states([t, min(t + 1, self.frames - 1)], deform)
-        return self._render(t, states[0], states[1] if t + 1 < self.frames else None).features[..., :3]
+        return self._render([t], {t: self.scene.states([t], deform)[0]})[0].features[..., :3]
 
-    def _compared(
-        self, t: int, now: list[ObjectState], after: list[ObjectState] | None
-    ) -> tuple[FrameTargets, Rendering]:
-        """What is compared in frame t: its targets and what the scene shows there."""
-        return self.targets.frame(t), self._render(t, now, after)
+    def _compared(self, frames: list[int], states: States) -> list[tuple[FrameTargets, Rendering]]:
+        """What is compared in each frame: its targets and what the scene shows there."""
+        return list(zip(map(self.targets.frame, frames), self._render(frames, states), strict=True))
 
-    def _render(self, t: int, now: list[ObjectState], after: list[ObjectState] | None) -> Rendering:
-        return self._splatted(t, now, after, self.scene.cameras.view(t))
+    def _render(self, frames: list[int], states: States) -> list[Rendering]:
+        return self._splatted(frames, states, [self.scene.cameras.view(t) for t in frames])
 
     def _splatted(
-        self, t: int, now: list[ObjectState], after: list[ObjectState] | None, view: View, with_background: bool = True
-    ) -> Rendering:
-        """One splat of a view; raises GenmojoError("budget") with the name of the object that fills it."""
-        layout = self.scene.layout
-        c = self.scene.compose(t, now, after if layout.flow else None, with_background)
-        splats = Splats(c.means, c.quats, c.scales, c.opacities, c.features)
+        self, frames: list[int], states: States, views: list[View], with_background: bool = True
+    ) -> list[Rendering]:
+        """A view of each frame, drawn at once; GenmojoError("budget") with the name of an object that fills one."""
+        layout, splats = self.scene.layout, []
+        for t in frames:
+            c = self.scene.compose(t, states[t], states.get(t + 1) if layout.flow else None, with_background)
+            splats.append(Splats(c.means, c.quats, c.scales, c.opacities, c.features))
         try:
-            return self.splat(splats, view, detached_channels=2 if layout.flow else 0)
+            return splat_frames(self.splat, splats, views, detached_channels=2 if layout.flow else 0)
         except GenmojoError as error:
             if error.code != "budget":
                 raise
-            widest = max(now, key=lambda state: float(state.scales.detach().max()), default=None)
-            name = "the background" if widest is None else self.scene.objects[now.index(widest)].name
+            shown = [(float(s.scales.detach().max()), k) for t in frames for k, s in enumerate(states[t])]
+            name = self.scene.objects[max(shown)[1]].name if shown else "the background"
             raise GenmojoError("budget", f"the Gaussians of {name} fill the view: {error.what}", "",
                                "go on from the last checkpoint with smaller learning rates") from error  # fmt: skip
 

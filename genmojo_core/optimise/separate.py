@@ -21,10 +21,10 @@ from genmojo_core.scene.scene4d import ObjectState
 class SeparateObjective(Objective):
     """The joint objective with data terms per object; pictures and held-out pixels are still judged together."""
 
-    def _render(self, t: int, now: list[ObjectState], after: list[ObjectState] | None) -> Rendering:
-        self._after = after
+    def _render(self, frames: list[int], states: dict[int, list[ObjectState]]) -> list[Rendering]:
+        self._states = states
         with torch.no_grad():
-            return super()._render(t, now, after)
+            return super()._render(frames, states)
 
     def _data_terms(
         self, t: int, now: list[ObjectState], rendering: Rendering, target: FrameTargets, similar: Tensor
@@ -48,7 +48,7 @@ class SeparateObjective(Objective):
     def _alone(self, t: int, now: list[ObjectState], k: int) -> Rendering:
         """Object k and the background."""
         layout = self.scene.layout
-        c = self.scene.compose(t, now, self._after if layout.flow else None)
+        c = self.scene.compose(t, now, self._states.get(t + 1) if layout.flow else None)
         sizes = [len(state.means) for state in now]
         start = sum(sizes[:k])
         rows = torch.cat([torch.arange(start, start + sizes[k]), torch.arange(sum(sizes), len(c.means))])

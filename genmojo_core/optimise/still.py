@@ -21,7 +21,7 @@ from genmojo_core.config import RunConfig
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.effects.still import background_is_still
 from genmojo_core.events import Event, StageStarted
-from genmojo_core.optimise.objective import Objective
+from genmojo_core.optimise.objective import Objective, States
 from genmojo_core.optimise.schedule import rate_factor, start_rate
 from genmojo_core.optimise.separate import SeparateObjective
 from genmojo_core.optimise.targets import FrameTargets, Window
@@ -164,27 +164,33 @@ class StillObjective(Objective):
         splats = Splats(c.means, c.quats, c.scales, c.opacities, c.features)
         return self.splat(splats, self.scene.cameras.view(0))
 
-    def _compared(
-        self, t: int, now: list[ObjectState], after: list[ObjectState] | None
-    ) -> tuple[FrameTargets, Rendering]:
+    def _compared(self, frames: list[int], states: States) -> list[tuple[FrameTargets, Rendering]]:
         if not self.held:
-            return super()._compared(t, now, after)
-        window = self._window(t, now)
+            return super()._compared(frames, states)
+        windows = [self._window(t, states[t]) for t in frames]
+        targets = [self._cut_target(t, window) for t, window in zip(frames, windows, strict=True)]
+        return list(zip(targets, self._windows(frames, states, windows), strict=True))
+
+    def _cut_target(self, t: int, window: Window) -> FrameTargets:
         known = self._cut.get(t)
         if known is None or known[0] != window:
             self._cut[t] = (window, self.targets.frame(t).cut(window))
-        return self._cut[t][1], self._over(t, now, after, window)
+        return self._cut[t][1]
 
-    def _render(self, t: int, now: list[ObjectState], after: list[ObjectState] | None) -> Rendering:
+    def _render(self, frames: list[int], states: States) -> list[Rendering]:
         if not self.held:
-            return super()._render(t, now, after)
-        width, height = self.scene.cameras.size
-        return self._over(t, now, after, Window(0, 0, width, height))
+            return super()._render(frames, states)
+        return self._windows(frames, states, [Window(0, 0, *self.scene.cameras.size)] * len(frames))
 
-    def _over(self, t: int, now: list[ObjectState], after: list[ObjectState] | None, window: Window) -> Rendering:
-        """The objects in a window, over the backdrop."""
-        view = self.scene.cameras.view(t).cropped(window.left, window.top, window.width, window.height)
-        front = self._splatted(t, now, after, view, with_background=False)
+    def _windows(self, frames: list[int], states: States, windows: list[Window]) -> list[Rendering]:
+        """The objects of each frame in its window, over the backdrop."""
+        views = [self.scene.cameras.view(t).cropped(w.left, w.top, w.width, w.height)
+                 for t, w in zip(frames, windows, strict=True)]  # fmt: skip
+        fronts = self._splatted(frames, states, views, with_background=False)
+        return [self._over(*one) for one in zip(frames, fronts, windows, strict=True)]
+
+    def _over(self, t: int, front: Rendering, window: Window) -> Rendering:
+        """What is in front of the backdrop in a window, and the backdrop."""
         behind, rows, columns = self.backdrop(), *window.slices()
         rgb = behind.features[rows, columns]
         rgb = rgb if self.scene.gain is None else rgb * self.scene.gain(t)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -9,8 +10,11 @@ import torch
 from torch import Tensor
 
 from genmojo_core.clip.cameras import View
+from genmojo_core.kernels.threads import run_whole
 from genmojo_core.render.cpu.rasterize import Drawn, backward, draw
 from genmojo_core.render.rasterizer import Rendering, Splats
+
+INPUTS, PLANES = 6, 3  # tensors of one picture: the pose and five of its splats; features, depth, alpha
 
 
 def splat(
@@ -33,39 +37,73 @@ def splat(
     Raises:
         GenmojoError("schema" | "budget" | "argument") as render/cpu/rasterize.py.
     """
-    parts = (splats.means, splats.quats, splats.scales, splats.opacities, splats.features)
-    features, depth, alpha = _Splat.apply(view, detached_channels, pose, *(p.float() for p in parts))
-    return Rendering(features, depth, alpha)
+    return splat_frames([splats], [view], detached_channels=detached_channels, poses=[pose])[0]
+
+
+def splat_frames(
+    splats: Sequence[Splats[Tensor]],
+    views: Sequence[View],
+    *,
+    detached_channels: int = 0,
+    poses: Sequence[Tensor | None] | None = None,
+) -> list[Rendering[Tensor]]:
+    """Draw several pictures at once, a picture per thread, as `splat` draws each; so is their backward pass.
+
+    The bits are those of pictures drawn one by one. Gradients of all pictures are found together, once all of those
+    that the loss looks at have theirs.
+    """
+    inputs: list[Tensor | None] = []
+    for one, pose in zip(splats, poses or [None] * len(views), strict=True):
+        parts = (one.means, one.quats, one.scales, one.opacities, one.features)
+        inputs += [pose, *(p.float() for p in parts)]
+    planes = _Splat.apply(tuple(views), detached_channels, *inputs)
+    return [Rendering(*planes[k : k + PLANES]) for k in range(0, len(planes), PLANES)]
 
 
 class _Splat(torch.autograd.Function):
     """Glue: tensors to arrays and back; everything is in render/cpu."""
 
     @staticmethod
-    def forward(ctx: Any, view: View, detached: int, pose: Tensor | None, *parts: Tensor) -> tuple[Tensor, ...]:
-        """Draw and keep the picture's state for backward."""
-        arrays = Splats(*(p.detach().numpy() for p in parts))
-        matrix = None if pose is None else pose.detach().double().numpy()
-        drawn = draw(arrays, view, detached_channels=detached, pose=matrix)
+    def forward(ctx: Any, views: tuple[View, ...], detached: int, *inputs: Tensor | None) -> tuple[Tensor, ...]:
+        """Draw and keep the pictures' state for backward. inputs: the pose, then the parts, of each."""
+        drawn: list[Any] = [None] * len(views)
+
+        def job(k: int) -> None:
+            pose, *parts = inputs[k * INPUTS : (k + 1) * INPUTS]
+            arrays = Splats(*(p.detach().numpy() for p in parts))
+            matrix = None if pose is None else pose.detach().double().numpy()
+            drawn[k] = draw(arrays, views[k], detached_channels=detached, pose=matrix)
+
+        run_whole(job, len(views))
         ctx.drawn = drawn if any(ctx.needs_input_grad) else None
         ctx.set_materialize_grads(False)
-        ctx.pose_dtype = None if pose is None else pose.dtype
-        picture = drawn.rendering()
-        return tuple(torch.from_numpy(a) for a in (picture.features, picture.depth, picture.alpha))
+        ctx.pose_types = [None if pose is None else pose.dtype for pose in inputs[::INPUTS]]
+        pictures = [one.rendering() for one in drawn]
+        return tuple(torch.from_numpy(a) for p in pictures for a in (p.features, p.depth, p.alpha))
 
     @staticmethod
     @torch.autograd.function.once_differentiable
     def backward(ctx: Any, *upstream: Tensor | None) -> tuple[Any, ...]:
-        """Gradients for (view, detached, pose, means, quats, scales, opacities, features)."""
-        drawn: Drawn = ctx.drawn
-        height, width = drawn.lens.height, drawn.lens.width
-        shapes = ((height, width, drawn.features), (height, width), (height, width))
-        arrays = [
-            np.zeros(shape, np.float32) if gradient is None else gradient.detach().numpy()
-            for gradient, shape in zip(upstream, shapes, strict=True)
-        ]
-        wanted = ctx.needs_input_grad[2]
-        gradients, pose = backward(drawn, Rendering(*arrays), with_pose=wanted)
-        pose_gradient = torch.from_numpy(pose).to(ctx.pose_dtype) if wanted else None
-        parts = (gradients.means, gradients.quats, gradients.scales, gradients.opacities, gradients.features)
-        return None, None, pose_gradient, *(torch.from_numpy(p) for p in parts)
+        """Gradients for (views, detached, then of each picture pose, means, quats, scales, opacities, features)."""
+        found: list[tuple[Any, ...]] = [()] * len(ctx.drawn)
+
+        def job(k: int) -> None:
+            drawn: Drawn = ctx.drawn[k]
+            height, width = drawn.lens.height, drawn.lens.width
+            given = upstream[k * PLANES : (k + 1) * PLANES]
+            if all(gradient is None for gradient in given):
+                found[k] = (None,) * INPUTS
+                return
+            shapes = ((height, width, drawn.features), (height, width), (height, width))
+            arrays = [
+                np.zeros(shape, np.float32) if gradient is None else gradient.detach().numpy()
+                for gradient, shape in zip(given, shapes, strict=True)
+            ]
+            wanted = ctx.needs_input_grad[2 + k * INPUTS]
+            g, pose = backward(drawn, Rendering(*arrays), with_pose=wanted)
+            parts = (g.means, g.quats, g.scales, g.opacities, g.features)
+            turned = torch.from_numpy(pose).to(ctx.pose_types[k]) if wanted else None
+            found[k] = (turned, *(torch.from_numpy(p) for p in parts))
+
+        run_whole(job, len(found))
+        return None, None, *(gradient for one in found for gradient in one)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -54,6 +54,18 @@ def choose(device: str) -> Splat:
     from genmojo_core.render import torch_tiles
 
     return torch_tiles.splat
+
+
+def splat_frames(
+    splat: Splat, splats: Sequence[Splats[Tensor]], views: Sequence[View], *, detached_channels: int = 0
+) -> list[Rendering[Tensor]]:
+    """The pictures of several frames by a rasteriser of `choose`: at once where it can, else one by one."""
+    if kernels_work():
+        from genmojo_core.render import autograd
+
+        if splat is autograd.splat:
+            return autograd.splat_frames(splats, views, detached_channels=detached_channels)
+    return [splat(s, v, detached_channels=detached_channels) for s, v in zip(splats, views, strict=True)]
 
 
 def warm_up(report: Callable[[str], None] | None = None) -> threading.Thread:

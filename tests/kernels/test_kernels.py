@@ -16,7 +16,17 @@ import torch
 
 from genmojo_core.kernels import cache, probe
 from genmojo_core.kernels.cache import kernel
-from genmojo_core.kernels.simd import EXP2_FLOATS, exp2_8, load4x2, load8, prepare_exp2, store4x2, store8, sum_rows
+from genmojo_core.kernels.simd import (
+    EXP2_FLOATS,
+    exp2_8,
+    exp2_table,
+    load4x2,
+    load8,
+    prepare_exp2,
+    store4x2,
+    store8,
+    sum_rows,
+)
 from genmojo_core.render import backend, torch_tiles
 
 ROOT = Path(cache.__file__).resolve().parents[2]
@@ -26,7 +36,7 @@ ROOT = Path(cache.__file__).resolve().parents[2]
 def _powers(values: np.ndarray, out: np.ndarray, table: np.ndarray) -> None:
     prepare_exp2(table)
     for i in range(0, values.size, 8):
-        store8(out, i, exp2_8(load8(values, i), table))
+        store8(out, i, exp2_8(load8(values, i), exp2_table(table)))
 
 
 @kernel

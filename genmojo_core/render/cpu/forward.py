@@ -7,10 +7,10 @@ by the lowest set bit while the block's pixels stay in registers. Per block and 
 
     e = log2(alpha) = log2(o) + A dx^2 + B dx dy + C dy^2      (A, B, C carry the conic and log2 e)
     alpha = min(0.99, 2^e) where e >= log2(1/255), else 0;  rest = T - alpha T;  stop = rest <= 1e-4
-    w = alpha T where T > 0 and not stop;  out_c += w f_c;  T <- rest, or -T where stop
+    w = alpha T, or 0 where stop;  out_c += w f_c;  out_alpha += w;  T <- rest, or 0 where stop
 
-A negative T marks a finished pixel and keeps its final transmittance; a block whose pixels are all finished is left
-out from then on, a tile without blocks ends. The blocks that saw an entry are stored: backward needs no culling.
+T = 0 marks a finished pixel; a block whose pixels are all finished is left out from then on, a tile without blocks
+ends. The blocks that saw an entry are stored: backward needs no culling.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from genmojo_core.kernels.simd import (
     EXP2_FLOATS,
     broadcast8,
     exp2_8,
+    exp2_table,
     fma,
     load8,
     max8,
@@ -85,8 +86,8 @@ class Drawing(NamedTuple):
 
 
 def state_floats(slots: int) -> int:
-    """Floats of one block's state: T and the slots, at least WIDE of them."""
-    return (1 + max(slots, WIDE)) * LANES
+    """Floats of one block's state: T, alpha and the slots, at least WIDE of them."""
+    return (2 + max(slots, WIDE)) * LANES
 
 
 def drawing_floats(slots: int) -> int:
@@ -181,23 +182,23 @@ def write_alphas(records: np.ndarray, at: int, mask: int, corner: tuple, scratch
     x, y = broadcast8(records, at) - corner[0], broadcast8(records, at + 1) - corner[1]
     a, b, c = broadcast8(records, at + 2), broadcast8(records, at + 3), broadcast8(records, at + 4)
     log_opacity = broadcast8(records, at + 5)
-    place = ALPHAS
+    place, powers = ALPHAS, exp2_table(scratch)
     while mask != 0:
         block = trailing_zeros(mask)
         mask &= mask - 1
         dx, dy = load8(scratch, XS + block * LANES) - x, load8(scratch, YS + block * LANES) - y
         e = fma(dx, fma(a, dx, b * dy), fma(c * dy, dy, log_opacity))
-        store8(scratch, place, select8(e >= CUT, exp2_8(e, scratch), np.float32(0)))
+        store8(scratch, place, select8(e >= CUT, exp2_8(e, powers), np.float32(0)))
         place += LANES
 
 
 @inlined
-def alphas(scratch: np.ndarray, row: int, x: object, y: object) -> object:
+def alphas(scratch: np.ndarray, row: int, x: object, y: object, powers: tuple) -> object:
     """Alpha of a copied record at eight pixels, not clamped, 0 under the cut."""
     dx, dy = x - broadcast8(scratch, row), y - broadcast8(scratch, row + 1)
     a, b, c = broadcast8(scratch, row + 2), broadcast8(scratch, row + 3), broadcast8(scratch, row + 4)
     e = fma(dx, fma(a, dx, b * dy), fma(c * dy, dy, broadcast8(scratch, row + 5)))
-    return select8(e >= CUT, exp2_8(e, scratch), np.float32(0))
+    return select8(e >= CUT, exp2_8(e, powers), np.float32(0))
 
 
 @inlined
@@ -207,22 +208,22 @@ def blend(scratch: np.ndarray, marks: np.ndarray, block: int, mask: int, cell: i
     Their weights are left in the scratch, one after the other; returns where they end.
     """
     zero = splat8(np.float32(0))
-    x, y = load8(scratch, XS + block * LANES), load8(scratch, YS + block * LANES)
-    t, c0, c1 = load8(scratch, cell), load8(scratch, cell + 8), load8(scratch, cell + 16)
-    c2, c3, c4 = load8(scratch, cell + 24), load8(scratch, cell + 32), load8(scratch, cell + 40)
-    c5, c6, c7 = load8(scratch, cell + 48), load8(scratch, cell + 56), load8(scratch, cell + 64)
-    c8, c9 = load8(scratch, cell + 72), load8(scratch, cell + 80)
+    x, y, powers = load8(scratch, XS + block * LANES), load8(scratch, YS + block * LANES), exp2_table(scratch)
+    t, a, c0, c1 = load8(scratch, cell), load8(scratch, cell + 8), load8(scratch, cell + 16), load8(scratch, cell + 24)
+    c2, c3, c4 = load8(scratch, cell + 32), load8(scratch, cell + 40), load8(scratch, cell + 48)
+    c5, c6, c7 = load8(scratch, cell + 56), load8(scratch, cell + 64), load8(scratch, cell + 72)
+    c8, c9 = load8(scratch, cell + 80), load8(scratch, cell + 88)
     place = WEIGHTS
     while True:
         k = trailing_zeros(mask)
         mask &= mask - 1
         row = ROWS + k * ROW
-        part = min8(alphas(scratch, row, x, y), MOST) * t
+        part = min8(alphas(scratch, row, x, y, powers), MOST) * t
         rest = t - part
-        hit, going = part > zero, rest > STOP
-        w = select8(hit & going, part, zero)
-        t = select8(going, rest, min8(t, zero - t))
-        marks[k] |= any_lane(hit) << block
+        marks[k] |= any_lane(part > zero) << block
+        going = rest > STOP
+        w, t = select8(going, part, zero), select8(going, rest, zero)
+        a = a + w
         f = row + GEOMETRY
         c0, c1 = fma(w, broadcast8(scratch, f), c0), fma(w, broadcast8(scratch, f + 1), c1)
         c2, c3 = fma(w, broadcast8(scratch, f + 2), c2), fma(w, broadcast8(scratch, f + 3), c3)
@@ -231,9 +232,9 @@ def blend(scratch: np.ndarray, marks: np.ndarray, block: int, mask: int, cell: i
         c8, c9 = fma(w, broadcast8(scratch, f + 8), c8), fma(w, broadcast8(scratch, f + 9), c9)
         store8(scratch, place, w)
         place += LANES
-        if mask == 0 or any_lane(t > zero) == 0:
+        if mask == 0 or any_lane(going) == 0:
             break
-    store_rows(scratch, cell, (t, c0, c1, c2, c3, c4, c5, c6, c7, c8, c9))
+    store_rows(scratch, cell, (t, a, c0, c1, c2, c3, c4, c5, c6, c7, c8, c9))
     return place
 
 
@@ -241,7 +242,7 @@ def blend(scratch: np.ndarray, marks: np.ndarray, block: int, mask: int, cell: i
 def add_channels(scratch: np.ndarray, mask: int, cell: int, end: int, slots: int) -> None:
     """Blend slots WIDE, ... of one block, two at a time, with the weights just written, which end at `end`."""
     for slot in range(WIDE, slots, 2):
-        at, place, coming = cell + (1 + slot) * LANES, WEIGHTS, mask
+        at, place, coming = cell + (2 + slot) * LANES, WEIGHTS, mask
         c0, c1 = load8(scratch, at), load8(scratch, at + LANES)
         while place != end:
             f = ROWS + trailing_zeros(coming) * ROW + GEOMETRY + slot
@@ -273,19 +274,16 @@ def draw_chunk(drawing: Drawing, alive: int, count: int, scratch: np.ndarray, ma
 
 @inlined
 def write_tile(drawing: Drawing, scratch: np.ndarray, left: int, top: int, pitch: int, plane: int) -> None:
-    """Copy a tile's state into the padded planes: alpha = 1 - |T|, then the slots.
+    """Copy a tile's alpha and slots into the padded planes.
 
     Plane by plane: planes often lie a power of two apart, where a cache holds few lines at once.
     """
     corner = top * pitch + left
-    for block in range(BLOCKS):
-        place = corner + line(block) * pitch + column(block)
-        t = load8(scratch, STATE + block * drawing.stride)
-        store4x2(drawing.planes, place, place + pitch, np.float32(1) - select8(t > np.float32(0), t, np.float32(0) - t))
-    for c in range(1, 1 + drawing.slots):
+    for c in range(1 + drawing.slots):
         for block in range(BLOCKS):
             place = c * plane + corner + line(block) * pitch + column(block)
-            store4x2(drawing.planes, place, place + pitch, load8(scratch, STATE + block * drawing.stride + c * LANES))
+            value = load8(scratch, STATE + block * drawing.stride + (1 + c) * LANES)
+            store4x2(drawing.planes, place, place + pitch, value)
 
 
 @kernel

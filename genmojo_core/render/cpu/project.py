@@ -24,6 +24,7 @@ from genmojo_core.kernels.scalars import larger, smaller
 from genmojo_core.render.rasterizer import ALPHA_MIN, FRUSTUM_CLAMP
 
 LOG2_E = 1.4426950408889634
+LOG_ALPHA_MIN = math.log(ALPHA_MIN)
 SHORTEST_QUATERNION = 1e-12
 WIDEST = 1e7  # pixels: an ellipse that reaches further is a fault, and would overflow float32 in backward
 GEOMETRY = 6  # floats per splat read by the pixel loops: centre x, y, three quadratic terms, log2 of the opacity
@@ -163,7 +164,8 @@ def project_range(start: int, stop: int, lens: Lens, cloud: Cloud, out: Ellipses
         (xx, xy, yy, det), length = ellipse(lens, cloud, i, point)
         x = lens.focal[0] * (point[0] / point[2]) + lens.focal[2]
         y = lens.focal[1] * (point[1] / point[2]) + lens.focal[3]
-        reach = 2 * math.log(opacity / ALPHA_MIN)
+        log_opacity = math.log(opacity)
+        reach = 2 * (log_opacity - LOG_ALPHA_MIN)
         half_x, half_y = math.sqrt(reach * xx), math.sqrt(reach * yy)
         fits = half_x <= WIDEST and half_y <= WIDEST and abs(x) < 1e30 and abs(y) < 1e30
         if not (fits and length > SHORTEST_QUATERNION and length < math.inf):
@@ -177,4 +179,4 @@ def project_range(start: int, stop: int, lens: Lens, cloud: Cloud, out: Ellipses
         scale = LOG2_E / det
         row = out.geometry[i]
         row[0], row[1] = x, y
-        row[2], row[3], row[4], row[5] = -0.5 * scale * yy, scale * xy, -0.5 * scale * xx, math.log2(opacity)
+        row[2], row[3], row[4], row[5] = -0.5 * scale * yy, scale * xy, -0.5 * scale * xx, log_opacity * LOG2_E
