@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+LINE = 64  # bytes of a cache line: vectors of arrays that start on one never lie across two
 LIMIT = 2**28  # bytes kept in all; what goes beyond is an ordinary array
 SMALLEST = 2**16  # bytes: below, the system's own allocation is as fast
 
@@ -29,7 +30,13 @@ def take(shape: tuple[int, ...], dtype: Any = np.float32) -> np.ndarray:
     if size < SMALLEST or size > LIMIT or not _COUNTS:
         return np.empty(shape, dtype)
     with _lock:
-        return _free(size)[:size].view(dtype).reshape(shape)
+        return on_line(_free(size + LINE), size).view(dtype).reshape(shape)
+
+
+def on_line(array: np.ndarray, size: int) -> np.ndarray:
+    """`size` bytes of a flat uint8 array of at least LINE more, from the start of a cache line on."""
+    first = -array.ctypes.data % LINE
+    return array[first : first + size]
 
 
 def zeros(shape: tuple[int, ...], dtype: Any = np.float32) -> np.ndarray:

@@ -10,6 +10,8 @@ from itertools import count as counter
 
 import numpy as np
 
+from genmojo_core.kernels.buffers import LINE, on_line
+
 HELPERS = "genmojo-kernel"  # their names begin so
 
 _state: dict[str, ThreadPoolExecutor | int | None] = {"pool": None, "threads": 0}
@@ -43,7 +45,7 @@ def run_jobs(job: Callable[[int], object], count: int) -> None:
     Every thread takes the next number as soon as it is free, so one that wakes late costs nothing but its own share.
     Raises what a job raised, after all threads have stopped.
     """
-    helpers = 0 if getattr(_local, "alone", False) else min(get_threads(), count) - 1
+    helpers = 0 if _alone() else min(get_threads(), count) - 1
     numbers = counter()
 
     def work() -> None:
@@ -68,7 +70,7 @@ def run_whole(job: Callable[[int], object], count: int) -> None:
     """
 
     def alone(index: int) -> None:
-        before, _local.alone = getattr(_local, "alone", False), True
+        before, _local.alone = _alone(), True
         try:
             job(index)
         finally:
@@ -79,8 +81,17 @@ def run_whole(job: Callable[[int], object], count: int) -> None:
     run_jobs(lambda index: job(whole + index), count - whole)
 
 
+def _alone() -> bool:
+    """True where the calling thread has no helpers: there are none, or each has a large job of its own."""
+    return get_threads() == 1 or getattr(_local, "alone", False)
+
+
 def run_ranges(kernel: Callable[[int, int], object], size: int, chunk: int) -> None:
-    """Call kernel(start, stop) over 0..size-1 in pieces of `chunk` (the same pieces for any number of threads)."""
+    """Call kernel(start, stop) over 0..size-1, in pieces of `chunk`, or at once where the calling thread is alone.
+
+    So the result must not depend on the pieces. One call asks for the interpreter's lock once.
+    """
+    chunk = max(size, 1) if _alone() else chunk
     run_jobs(lambda index: kernel(index * chunk, min((index + 1) * chunk, size)), -(-size // chunk))
 
 
@@ -88,7 +99,7 @@ def scratch(floats: int) -> np.ndarray:
     """(floats,) float32 of any content, the calling thread's own; valid until it asks again."""
     kept = getattr(_local, "floats", None)
     if kept is None or len(kept) < floats:
-        _local.floats = kept = np.empty(floats, np.float32)
+        _local.floats = kept = on_line(np.empty(4 * floats + LINE, np.uint8), 4 * floats).view(np.float32)
     return kept[:floats]
 
 

@@ -13,15 +13,16 @@ DARK, FAINT = (60, 60, 60), (225, 225, 225)
 
 
 def linear_cost(rows: list[dict[str, float]]) -> dict[str, float]:
-    """Least squares of seconds = per_pair * pairs + per_splat * splats in relative error, and the largest error."""
+    """Least squares of seconds = per_pair * pairs + per_splat * splats + per_picture in relative error, and errors."""
     pairs = np.array([row["pairs"] for row in rows])
     splats = np.array([row["count"] for row in rows])
     seconds = np.array([row["forward"] + row["backward"] for row in rows])
-    table = np.stack([pairs, splats], axis=1) / seconds[:, None]
-    (per_pair, per_splat), *_ = np.linalg.lstsq(table, np.ones(len(rows)), rcond=None)
-    error = np.abs(table @ np.array([per_pair, per_splat]) - 1)
-    return {"per_pair": float(per_pair), "per_splat": float(per_splat), "worst_error": float(error.max()),
-            "median_error": float(np.median(error))}  # fmt: skip
+    table = np.stack([pairs, splats, np.ones(len(rows))], axis=1) / seconds[:, None]
+    found, *_ = np.linalg.lstsq(table, np.ones(len(rows)), rcond=None)
+    error = np.abs(table @ found - 1)
+    per_pair, per_splat, per_picture = (float(one) for one in found)
+    return {"per_pair": per_pair, "per_splat": per_splat, "per_picture": per_picture,
+            "worst_error": float(error.max()), "median_error": float(np.median(error))}  # fmt: skip
 
 
 def draw_plot(rows: list[dict[str, float]], path: Path) -> None:
@@ -36,7 +37,8 @@ def draw_plot(rows: list[dict[str, float]], path: Path) -> None:
         members = [row for row in rows if row["count"] == count]
         if not members:
             continue
-        line = [axes.place(x, 1e3 * (cost["per_pair"] * 1e6 * x + cost["per_splat"] * count))
+        fixed = cost["per_splat"] * count + cost["per_picture"]
+        line = [axes.place(x, 1e3 * (cost["per_pair"] * 1e6 * x + fixed))
                 for x in np.geomspace(*axes.x, 100)]  # fmt: skip
         cv2.polylines(picture, [np.array(line, np.int32)], False, colour, 1, cv2.LINE_AA)
         for row in members:
@@ -47,8 +49,8 @@ def draw_plot(rows: list[dict[str, float]], path: Path) -> None:
         _write(picture, f"{count:,} splats", (MARGIN[0] + 20, 70 + 26 * number), colour, 0.6)
     _write(picture, "Forward + backward, one thread: CPU milliseconds over millions of (splat, pixel) pairs",
            (MARGIN[0], 32), DARK, 0.62)  # fmt: skip
-    _write(picture, f"lines: {1e9 * cost['per_pair']:.2f} ns per pair + {1e9 * cost['per_splat']:.0f} ns per splat,"
-           f" median error {100 * cost['median_error']:.0f} %",
+    _write(picture, f"lines: {1e9 * cost['per_pair']:.2f} ns per pair + {1e9 * cost['per_splat']:.0f} ns per splat"
+           f" + {1e3 * cost['per_picture']:.2f} ms, median error {100 * cost['median_error']:.0f} %",
            (MARGIN[0] + 330, SIZE[1] - 24), DARK, 0.55)  # fmt: skip
     cv2.imwrite(str(path), picture)
 

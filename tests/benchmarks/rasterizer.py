@@ -1,12 +1,13 @@
 """The rasteriser's twelve cases: ours against the naive torch tile renderer, forward and backward, on one thread.
 
-    python -m tests.benchmarks.rasterizer [--json FILE] [--plot FILE.png] [--rounds N] [--opponent-rounds N]
-                                          [--opponent-seconds S] [--case N:WxH ...]
+    python -m tests.benchmarks.rasterizer [--json FILE] [--plot FILE.png] [--rounds N] [--opponent-seconds S]
+                                          [--case N:WxH ...]
 
-Times are process CPU time, medians of interleaved rounds, so that other load on the machine counts as little as it can.
-Where gsplat and a CUDA device are at hand, its wall time there stands beside ours.
-`pairs` are contributing (splat, pixel) pairs. The share of the peak takes 48 operations per pair forward and 92
-backward, over the tile kernels alone, against the fused multiply-adds measured by `peak`.
+Times are process CPU time, medians over rounds that visit every case in turn, so that other load and the processor's
+changing speed touch all cases alike. Where gsplat and a CUDA device are at hand, its wall time there stands beside
+ours. `pairs` are contributing (splat, pixel) pairs. The share of the peak takes 48 operations per pair forward and 92
+backward, over the tile kernels alone, against the fused multiply-adds that `peak` measures just before: the best of a
+few short runs of either, the median over the visits.
 """
 
 from __future__ import annotations
@@ -17,7 +18,9 @@ import json
 import os
 import statistics
 import time
+from collections import defaultdict
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -27,13 +30,25 @@ from genmojo_core.clip.cameras import View
 from genmojo_core.kernels import threads
 from genmojo_core.render import autograd, torch_tiles
 from genmojo_core.render.cpu import rasterize
-from genmojo_core.render.rasterizer import Rendering, Splats
+from genmojo_core.render.rasterizer import Splats
 from tests.benchmarks.peak import multiply_seconds, peak_flops
 from tests.benchmarks.plot import draw_plot, linear_cost
 from tests.benchmarks.workload import CHANNELS, COUNTS, FLOW, SIZES, count_pairs, scene, view_of
 
 FORWARD_OPERATIONS, BACKWARD_OPERATIONS = 48, 92  # per contributing pair
+OWN = ("forward", "backward", "tiles_forward", "tiles_backward")
+PICTURES = 8  # of an optimiser step
 NAMES = ("means", "quats", "scales", "opacities", "features")
+
+
+@dataclass
+class Case:
+    """One workload and what was measured of it, by name."""
+
+    splats: Splats[np.ndarray]
+    view: View
+    row: dict[str, float]
+    seconds: dict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
 
 
 def main() -> None:
@@ -42,7 +57,6 @@ def main() -> None:
     parser.add_argument("--json", type=Path, help="write the figures there")
     parser.add_argument("--rounds", type=int, default=9)
     parser.add_argument("--opponent-seconds", type=float, default=60.0, help="leave the opponent out beyond that")
-    parser.add_argument("--opponent-rounds", type=int, default=1)
     parser.add_argument("--plot", type=Path, help="write cost over contributing pairs there, as PNG")
     parser.add_argument("--case", nargs="*", default=[], help="only these, e.g. 10000:256x256")
     arguments = parser.parse_args()
@@ -50,69 +64,77 @@ def main() -> None:
     torch.set_num_threads(1)
     peak = peak_flops()
     print(f"peak of one core: {peak / 1e9:.0f} GFLOP/s")
-    rows: list[dict[str, float]] = []
-    for width, height in SIZES:
-        for count in COUNTS:
-            if arguments.case and f"{count}:{width}x{height}" not in arguments.case:
-                continue
-            per_entry = rows[-1]["opponent"] / rows[-1]["entries"] if rows and "opponent" in rows[-1] else 1e-4
-            row = run_case(count, width, height, arguments, per_entry)
-            row["forward_share_of_peak"] = row["pairs"] * FORWARD_OPERATIONS / row["tiles_forward"] / peak
-            row["backward_share_of_peak"] = row["pairs"] * BACKWARD_OPERATIONS / row["tiles_backward"] / peak
-            rows.append(row)
-            print(sentence(row), flush=True)
-    figures = {"peak": peak, "cases": rows, "threads": two_threads()}
+    wanted = [(count, *size) for size in SIZES for count in COUNTS]
+    cases = [make_case(*one) for one in wanted if not arguments.case or "{}:{}x{}".format(*one) in arguments.case]
+    compare(cases, arguments.opponent_seconds)
+    for _ in range(arguments.rounds):
+        for case in cases:
+            visit(case)
+    rows = [finished(case) for case in cases]
+    figures = {"peak": peak, "cases": rows, "threads": {str(n): two_threads(n) for n in (1, PICTURES)}}
+    for row in rows:
+        print(sentence(row))
     ratios = [r["ratio"] for r in rows if "ratio" in r]
     if ratios:
         figures["median_ratio"] = statistics.median(ratios)
         print(f"median ratio over {len(ratios)} cases: {figures['median_ratio']:.0f}")
     if len(rows) > 2:
         figures["cost"] = linear_cost(rows)
-        print("cost: {per_pair:.3g} s per pair, {per_splat:.3g} s per splat, median error {median_error:.0%}".format(
-            **figures["cost"]))  # fmt: skip
-    print("two threads: {ratio:.2f}x the speed of one (best {best:.2f}x), bare multiply-adds {machine:.2f}x (best"
-          " {machine_best:.2f}x), load {load:.1f}".format(**figures["threads"]))  # fmt: skip
+        print("cost: {per_pair:.3g} s per pair, {per_splat:.3g} s per splat, {per_picture:.3g} s per picture,"
+              " median error {median_error:.0%}".format(**figures["cost"]))  # fmt: skip
+    for pictures, found in figures["threads"].items():
+        print("two threads, {} at once: {ratio:.2f}x the speed of one (best {best:.2f}x), bare multiply-adds"
+              " {machine:.2f}x (best {machine_best:.2f}x), load {load:.1f}".format(pictures, **found))  # fmt: skip
     if arguments.plot:
         draw_plot(rows, arguments.plot)
     if arguments.json:
         arguments.json.write_text(json.dumps(figures, indent=1))
 
 
-def run_case(
-    count: int, width: int, height: int, arguments: argparse.Namespace, seconds_per_entry: float
-) -> dict[str, float]:
-    """Medians in seconds of our forward and backward pass and of their tile kernels, and of the opponents' passes."""
+def make_case(count: int, width: int, height: int) -> Case:
+    """A workload with its pairs and entries counted."""
     splats, view = scene(count, width, height), view_of(width, height)
     drawn = rasterize.draw(splats, view, detached_channels=FLOW)
     row: dict[str, float] = {"count": count, "width": width, "height": height, "pairs": count_pairs(drawn)}
     row["entries"] = len(drawn.bins.rank)
-    del drawn
-    compared = seconds_per_entry * row["entries"] < arguments.opponent_seconds
-    times: dict[str, list[float]] = {k: [] for k in ("forward", "backward", "tiles_forward", "tiles_backward")}
-    opponent, on_gpu = [], []
-    for _ in range(arguments.opponent_rounds):
-        if compared:
-            opponent.append(sum(both_passes(torch_tiles.splat, splats, view)))
-        own_rounds(splats, view, arguments.rounds, times)
-        on_gpu += gsplat_seconds(splats, view)
-    row |= {key: statistics.median(values) for key, values in times.items()}
-    if compared:
-        row["opponent"] = statistics.median(opponent)
-        row["ratio"] = row["opponent"] / (row["forward"] + row["backward"])
-    if on_gpu:
-        row["gsplat"] = statistics.median(on_gpu)
-    return row
+    return Case(splats, view, row)
 
 
-def own_rounds(splats: Splats[np.ndarray], view: View, rounds: int, times: dict[str, list[float]]) -> None:
-    """Some passes of ours; CPU seconds are added to `times`."""
+def compare(cases: list[Case], limit: float) -> None:
+    """CPU seconds of the opponents, one pass each; torch's where the case before lets expect at most `limit`."""
+    per_entry = 1e-4
+    for case in cases:
+        case.seconds["gsplat"] = gsplat_seconds(case.splats, case.view)
+        if per_entry * case.row["entries"] < limit:
+            visit(case)
+            case.seconds["opponent"].append(sum(both_passes(torch_tiles.splat, case.splats, case.view)))
+            per_entry = case.seconds["opponent"][0] / case.row["entries"]
+
+
+def visit(case: Case, passes: int = 3) -> None:
+    """The processor's peak, then some passes of ours after one that only fills the caches."""
+    peak = peak_flops(0.005)
+    both_passes(autograd.splat, case.splats, case.view)
+    found: dict[str, list[float]] = defaultdict(list)
     with Stopwatch("draw_tiles") as drawing, Stopwatch("slope_tiles") as sloping:
-        for _ in range(rounds):
+        for _ in range(passes):
             drawing.seconds = sloping.seconds = 0.0
-            for key, value in zip(("forward", "backward"), both_passes(autograd.splat, splats, view), strict=True):
-                times[key].append(value)
-            times["tiles_forward"].append(drawing.seconds)
-            times["tiles_backward"].append(sloping.seconds)
+            times = both_passes(autograd.splat, case.splats, case.view)
+            for name, value in zip(OWN, (*times, drawing.seconds, sloping.seconds), strict=True):
+                found[name].append(value)
+    for name, values in found.items():
+        case.seconds[name] += values
+    for name, operations in (("forward", FORWARD_OPERATIONS), ("backward", BACKWARD_OPERATIONS)):
+        best = min(found[f"tiles_{name}"])
+        case.seconds[f"{name}_share_of_peak"].append(case.row["pairs"] * operations / best / peak)
+
+
+def finished(case: Case) -> dict[str, float]:
+    """The case's row: medians of all that was measured, and the opponent's ratio."""
+    row = case.row | {name: statistics.median(values) for name, values in case.seconds.items() if values}
+    if "opponent" in row:
+        row["ratio"] = row["opponent"] / (row["forward"] + row["backward"])
+    return row
 
 
 def gsplat_seconds(splats: Splats[np.ndarray], view: View) -> list[float]:
@@ -133,14 +155,14 @@ def gsplat_seconds(splats: Splats[np.ndarray], view: View) -> list[float]:
     return seconds[1:]
 
 
-def two_threads(rounds: int = 40) -> dict[str, float]:
+def two_threads(pictures: int, rounds: int = 40) -> dict[str, float]:
     """How many times as fast (wall time) two threads are as one, at 10k splats 256 x 256, interleaved.
 
-    `machine` is the same ratio of a loop of nothing but multiply-adds, measured between the rounds: what the two
-    processors give at that moment. `load` is the machine's load average before.
+    pictures: drawn at once, as an optimiser step draws its frames. `machine` is the same ratio of a loop of nothing but
+    multiply-adds, measured between the rounds: what the two processors give at that moment. `load` is the machine's
+    load average before.
     """
     splats, view = scene(10_000, 256, 256), view_of(256, 256)
-    upstream = Rendering(*(np.ones((256, 256, *tail), np.float32) for tail in ((CHANNELS,), (), ())))
     seconds: dict[int, list[float]] = {1: [], 2: []}
     loops: dict[int, list[float]] = {1: [], 2: []}
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
@@ -149,9 +171,7 @@ def two_threads(rounds: int = 40) -> dict[str, float]:
             threads.set_threads(count)
             multiply_seconds(count)  # starts the threads and wakes the processors alike
             loops[count].append(multiply_seconds(count))
-            start = time.perf_counter()
-            rasterize.backward(rasterize.draw(splats, view, detached_channels=FLOW), upstream)
-            found.append(time.perf_counter() - start)
+            found.append(sum(both_passes(autograd.splat_frames, splats, view, pictures, time.perf_counter)))
     threads.set_threads(1)
     one, two = statistics.median(loops[1]), statistics.median(loops[2])
     return {"ratio": statistics.median(seconds[1]) / statistics.median(seconds[2]),
@@ -159,17 +179,28 @@ def two_threads(rounds: int = 40) -> dict[str, float]:
             "machine_best": 2 * min(loops[1]) / min(loops[2]), "load": load}  # fmt: skip
 
 
-def both_passes(draw: Callable, splats: Splats[np.ndarray], view: View) -> tuple[float, float]:
-    """CPU seconds of one forward and one backward pass with upstream gradients on all planes."""
+def both_passes(
+    draw: Callable,
+    splats: Splats[np.ndarray],
+    view: View,
+    pictures: int = 0,
+    clock: Callable[[], float] = time.process_time,
+) -> tuple[float, float]:
+    """Seconds of one forward and one backward pass with upstream gradients on all planes; CPU time by default.
+
+    pictures: 0 where `draw` draws one, else so many of the same scene at once.
+    """
     leaves = Splats(*(torch.from_numpy(getattr(splats, n)).clone().requires_grad_() for n in NAMES))
     generator = torch.Generator().manual_seed(0)
     size = (view.height, view.width)
     upstream = [torch.randn(*size, *tail, generator=generator) for tail in ((CHANNELS,), (), ())]
-    start = time.process_time()
-    picture = draw(leaves, view, detached_channels=FLOW)
-    middle = time.process_time()
-    torch.autograd.backward([picture.features, picture.depth, picture.alpha], upstream)
-    return middle - start, time.process_time() - middle
+    many = ([leaves] * pictures, [view] * pictures) if pictures else (leaves, view)
+    start = clock()
+    drawn = draw(*many, detached_channels=FLOW)
+    middle = clock()
+    planes = [plane for one in (drawn if pictures else [drawn]) for plane in (one.features, one.depth, one.alpha)]
+    torch.autograd.backward(planes, upstream * max(pictures, 1))
+    return middle - start, clock() - middle
 
 
 class Stopwatch:

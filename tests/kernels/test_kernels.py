@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import torch
 
-from genmojo_core.kernels import cache, probe
+from genmojo_core.kernels import cache, probe, threads
 from genmojo_core.kernels.cache import kernel
 from genmojo_core.kernels.simd import (
     EXP2_FLOATS,
@@ -175,3 +175,32 @@ def test_unknown_devices_are_refused() -> None:
     if not torch.cuda.is_available():
         with pytest.raises(GenmojoError, match="CUDA|gsplat"):
             backend.choose("cuda")
+
+
+@pytest.mark.parametrize("count", [1, 2, 4])
+@pytest.mark.parametrize("jobs", [0, 1, 3, 8])
+def test_large_jobs_are_all_done_once_and_may_use_threads_themselves(count: int, jobs: int) -> None:
+    done = np.zeros((jobs, 50), np.int64)
+
+    def job(index: int) -> None:
+        def add(start: int, stop: int) -> None:
+            done[index, start:stop] += 1
+
+        threads.run_ranges(add, 50, 7)
+
+    try:
+        threads.set_threads(count)
+        threads.run_whole(job, jobs)
+    finally:
+        threads.set_threads(0)
+    assert (done == 1).all()
+
+
+def test_what_a_large_job_raises_reaches_the_caller() -> None:
+    def job(index: int) -> None:
+        if index == 2:
+            raise ValueError("picture 2")
+
+    with pytest.raises(ValueError, match="picture 2"):
+        threads.run_whole(job, 4)
+    threads.run_whole(lambda index: None, 4)  # and the threads go on

@@ -20,6 +20,7 @@ from tests.render.scenes import (
     run,
     turned_pose,
     upstream,
+    with_gradient,
 )  # fmt: skip
 
 
@@ -172,6 +173,34 @@ def test_same_bits_for_any_number_of_threads_and_twice() -> None:
         threads.set_threads(0)
     for other in results[1:]:
         assert all(torch.equal(a, b) for a, b in zip(results[0], other, strict=True))
+
+
+@pytest.mark.parametrize("count", [1, 2, 4])
+def test_pictures_drawn_at_once_have_the_bits_of_pictures_drawn_alone(count: int) -> None:
+    """Five pictures of different scenes and sizes, of which the loss looks at four."""
+    views = [camera(40 + 20 * k, 50 + 9 * k) for k in range(5)]
+    scenes = [random_splats(700, 9, k, size=0.03) for k in range(5)]
+    try:
+        threads.set_threads(count)
+        leaves, poses = (
+            [with_gradient(s) for s in scenes],
+            [torch.tensor(turned_pose()).requires_grad_() for _ in views],
+        )
+        pictures = autograd.splat_frames(leaves, views, detached_channels=2, poses=poses)
+        torch.stack([(p.features * upstream(v, 9).features).sum() + p.alpha.sum()
+                     for p, v in zip(pictures[:4], views, strict=False)]).sum().backward()  # fmt: skip
+        for k, (picture, view) in enumerate(zip(pictures, views, strict=True)):
+            own, pose = with_gradient(scenes[k]), torch.tensor(turned_pose()).requires_grad_()
+            alone = autograd.splat(own, view, detached_channels=2, pose=pose)
+            assert torch.equal(picture.features, alone.features) and torch.equal(picture.depth, alone.depth)
+            if k == 4:
+                assert leaves[k].means.grad is None and poses[k].grad is None
+                continue
+            ((alone.features * upstream(view, 9).features).sum() + alone.alpha.sum()).backward()
+            assert torch.equal(poses[k].grad, pose.grad)
+            assert all(torch.equal(getattr(leaves[k], n).grad, getattr(own, n).grad) for n in NAMES)
+    finally:
+        threads.set_threads(0)
 
 
 def test_numpy_and_torch_draw_the_same_bits() -> None:

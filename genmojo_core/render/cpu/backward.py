@@ -72,42 +72,9 @@ class Slopes(NamedTuple):
     row: int  # floats per row, a multiple of 8
 
 
-class Upstream(NamedTuple):
-    """A picture's upstream gradients, float32."""
-
-    alpha: np.ndarray  # (H, W), or (0, 0) where it does not count
-    depth: np.ndarray  # the same
-    features: np.ndarray  # flat memory of (H, W, C)
-    strides: tuple[int, int, int]  # of its three axes, in elements
-
-
 def slope_floats(slots: int) -> int:
     """Size of the scratch of `slope_tiles`; some to spare: loops over several slots read over the end."""
     return STATE + BLOCKS * (HEADER + slots) * LANES + 8 * LANES
-
-
-@kernel
-def fill_planes(start: int, stop: int, upstream: Upstream, columns: np.ndarray, size: tuple, planes: np.ndarray) -> None:
-    """Rows start..stop-1 of the planes (1 + slots, padded H, padded W) of a picture of size (H, W).
-
-    columns: (slots,) int64 feature of each slot, -1: none. What lies outside, and slots without one, become 0.
-    """
-    row_step, step, channel_step = upstream.strides
-    for row in range(start, stop):
-        for c in range(planes.shape[0]):
-            inside = size[1] if row < size[0] else 0
-            if c < 2:
-                source = upstream.alpha if c == 0 else upstream.depth
-                inside = smaller(inside, source.shape[1])
-                for x in range(inside):
-                    planes[c, row, x] = source[row, x]
-            else:
-                first = row * row_step + columns[c - 1] * channel_step
-                inside = inside if columns[c - 1] >= 0 else 0
-                for x in range(inside):
-                    planes[c, row, x] = upstream.features[first + x * step]
-            for x in range(inside, planes.shape[2]):
-                planes[c, row, x] = 0
 
 
 @inlined

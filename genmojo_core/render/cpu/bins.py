@@ -23,6 +23,7 @@ from genmojo_core.render.cpu.project import GEOMETRY, Ellipses, Lens
 TILE = 16  # pixels
 SHIFT = 4  # TILE as a power of two
 ENTRY_LIMIT = 2**24  # entries of one view: 1 GiB of gradient rows
+FEW = 2**16  # entries
 RADIX_BITS, DIGITS = 11, 3  # 33 bits
 AHEAD = 8  # splats
 
@@ -168,7 +169,8 @@ def bin_splats(lens: Lens, order: np.ndarray, box: np.ndarray) -> Bins:
             "remove or shrink splats that fill the view, or render a smaller image",
         )
     tile_start = np.zeros(tiles_x * tiles_y + 1, np.int64)
-    band = -(-tiles_y // get_threads())  # of tile rows: every thread walks all splats
+    # Every thread walks all splats, for a band of tile rows; few entries are done before another thread has woken.
+    band = -(-tiles_y // (get_threads() if entries > FEW else 1))
     run_ranges(lambda a, b: count_entries(a, b, box, tiles_x, tile_start), tiles_y, band)
     np.cumsum(tile_start, out=tile_start)
     rank, slot = take((entries,), np.int32), take((entries,), np.int32)

@@ -10,7 +10,7 @@ by the lowest set bit while the block's pixels stay in registers. Per block and 
     w = alpha T, or 0 where stop;  out_c += w f_c;  out_alpha += w;  T <- rest, or 0 where stop
 
 T = 0 marks a finished pixel; a block whose pixels are all finished is left out from then on, a tile without blocks
-ends. The blocks that saw an entry are stored: backward needs no culling.
+ends. The blocks that an entry reached while they had pixels left are stored: backward needs no culling.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ ALPHAS = ROWS  # of the backward pass, which copies no records
 MASKS = ROWS + CHUNK * ROW
 WEIGHTS = MASKS + CHUNK
 STATE = WEIGHTS + CHUNK * LANES
-MARKS = CHUNK  # a tile's marks, in int64: the blocks that saw each splat of the chunk
+MARKS = CHUNK  # a tile's marks, in int64: the blocks that each splat of the chunk reached in time
 
 
 class Drawing(NamedTuple):
@@ -80,7 +80,7 @@ class Drawing(NamedTuple):
     stride: int  # floats of a block's state, state_floats(slots)
     attached: int  # the first of them that give gradient to geometry, even
     planes: np.ndarray  # ((1 + slots) * padded height * padded width,) float32: alpha, then slots
-    hits: np.ndarray  # (E,) uint32 by slot: the blocks an entry was seen in
+    hits: np.ndarray  # (E,) uint32 by slot: the blocks an entry reached in time
     width: int
     height: int
 
@@ -155,10 +155,12 @@ def reached(scratch: np.ndarray, row: int) -> int:
 
 
 @inlined
-def take_chunk(
-    drawing: Drawing, bins: Bins, span: tuple, corner: tuple, scratch: np.ndarray, marks: np.ndarray
-) -> None:
-    """Copy the records of entries span[0]..span[1]-1 into the scratch, centres from the corner, with their masks."""
+def take_chunk(drawing: Drawing, bins: Bins, span: tuple, place: tuple, scratch: np.ndarray, marks: np.ndarray) -> None:
+    """Copy the records of entries span[0]..span[1]-1 into the scratch, with their masks, which are their first marks.
+
+    place: the tile's left and top pixel, from which the copied centres count, and the blocks still alive.
+    """
+    left, top, alive = place
     width = GEOMETRY + drawing.slots
     for k in range(span[1] - span[0]):
         rank = bins.rank[span[0] + k]
@@ -168,10 +170,10 @@ def take_chunk(
             store8(scratch, row + i, load8(drawing.records, rank * width + i))
         for i in range(width, GEOMETRY + WIDE):
             scratch[row + i] = 0
-        scratch[row] -= np.float32(corner[0])
-        scratch[row + 1] -= np.float32(corner[1])
-        store_bits(scratch, MASKS + k, reached(scratch, row))
-        marks[k] = 0
+        scratch[row] -= np.float32(left)
+        scratch[row + 1] -= np.float32(top)
+        marks[k] = reached(scratch, row) & alive
+        store_bits(scratch, MASKS + k, marks[k])
     for k in range(span[1] - span[0], CHUNK):
         store_bits(scratch, MASKS + k, 0)
 
@@ -202,10 +204,10 @@ def alphas(scratch: np.ndarray, row: int, x: object, y: object, powers: tuple) -
 
 
 @inlined
-def blend(scratch: np.ndarray, marks: np.ndarray, block: int, mask: int, cell: int) -> int:
+def blend(scratch: np.ndarray, block: int, mask: int, cell: int) -> tuple:
     """Blend the splats `mask`, at least one, of the chunk on one block, WIDE slots, until its pixels are finished.
 
-    Their weights are left in the scratch, one after the other; returns where they end.
+    Their weights are left in the scratch, one after the other. Returns where they end, and the splats not looked at.
     """
     zero = splat8(np.float32(0))
     x, y, powers = load8(scratch, XS + block * LANES), load8(scratch, YS + block * LANES), exp2_table(scratch)
@@ -220,7 +222,6 @@ def blend(scratch: np.ndarray, marks: np.ndarray, block: int, mask: int, cell: i
         row = ROWS + k * ROW
         part = min8(alphas(scratch, row, x, y, powers), MOST) * t
         rest = t - part
-        marks[k] |= any_lane(part > zero) << block
         going = rest > STOP
         w, t = select8(going, part, zero), select8(going, rest, zero)
         a = a + w
@@ -235,7 +236,7 @@ def blend(scratch: np.ndarray, marks: np.ndarray, block: int, mask: int, cell: i
         if mask == 0 or any_lane(going) == 0:
             break
     store_rows(scratch, cell, (t, a, c0, c1, c2, c3, c4, c5, c6, c7, c8, c9))
-    return place
+    return place, mask
 
 
 @inlined
@@ -265,10 +266,13 @@ def draw_chunk(drawing: Drawing, alive: int, count: int, scratch: np.ndarray, ma
             mask |= lanes_with_bit(scratch, MASKS + k, block) << k
         if mask != 0:
             cell = STATE + block * drawing.stride
-            end = blend(scratch, marks, block, mask, cell)
+            end, unseen = blend(scratch, block, mask, cell)
             add_channels(scratch, mask, cell, end, drawing.slots)
             if any_lane(load8(scratch, cell) > np.float32(0)) == 0:
                 alive &= ~(1 << block)
+                while unseen != 0:
+                    marks[trailing_zeros(unseen)] &= ~(1 << block)
+                    unseen &= unseen - 1
     return alive
 
 
@@ -307,7 +311,7 @@ def draw_tiles(
         first, last = bins.tile_start[tile], bins.tile_start[tile + 1]
         while first < last and alive != 0:
             count = smaller(CHUNK, last - first)
-            take_chunk(drawing, bins, (first, first + count), (left, top), scratch, marks)
+            take_chunk(drawing, bins, (first, first + count), (left, top, alive), scratch, marks)
             alive = draw_chunk(drawing, alive, count, scratch, marks)
             for k in range(count):
                 drawing.hits[bins.slot[first + k]] = marks[k]

@@ -14,7 +14,7 @@ from genmojo_core.clip.cameras import View
 from genmojo_core.errors import GenmojoError
 from genmojo_core.kernels.buffers import take, zeros
 from genmojo_core.kernels.threads import run_jobs, run_ranges, scratch
-from genmojo_core.render.cpu.backward import Slopes, Upstream, fill_planes, slope_floats, slope_tiles
+from genmojo_core.render.cpu.backward import Slopes, slope_floats, slope_tiles
 from genmojo_core.render.cpu.bins import TILE, Bins, bin_splats, depth_order, gather
 from genmojo_core.render.cpu.forward import (
     LANES,
@@ -30,8 +30,8 @@ from genmojo_core.render.rasterizer import Rendering, Splats
 
 MAX_SLOTS = 16  # channels of one pass, depth included
 SPLATS_PER_JOB, SPLAT_JOBS = 2048, 8
+COPIES_PER_JOB = 2**14  # splats: fewer are copied before another thread has woken
 ROWS_PER_JOB = 64
-NOTHING = np.zeros((0, 0), np.float32)
 
 
 @dataclass(frozen=True)
@@ -192,7 +192,7 @@ def _draw_pass(drawn: Drawn, layout: Layout, ellipses: Ellipses, features: np.nd
     records = take((count * (GEOMETRY + slots) + LANES,))  # the tile kernels copy eight at a time, over the end
     table = records[:-LANES].reshape(count, GEOMETRY + slots)
     source = (features, layout.feature_of_slot())
-    run_ranges(lambda a, b: gather(a, b, bins.order, ellipses, source, table), count, _splat_chunk(count))
+    run_ranges(lambda a, b: gather(a, b, bins.order, ellipses, source, table), count, COPIES_PER_JOB)
     planes = take((1 + slots, bins.tiles_y * TILE, bins.tiles_x * TILE))
     tiles = bins.tiles_x * bins.tiles_y
     hits = zeros((len(bins.rank),), np.uint32)
@@ -209,9 +209,8 @@ def _add_gradients(
 ) -> None:  # fmt: skip
     """Add the gradients of one pass to `out`; depth and alpha count in the first pass only."""
     bins, layout = drawn.bins, one.layout
-    planes, size = take(one.planes.shape), (drawn.lens.height, drawn.lens.width)
-    given, columns = _upstream(upstream, first=first), layout.feature_of_slot()
-    run_ranges(lambda a, b: fill_planes(a, b, given, columns, size, planes), planes.shape[1], ROWS_PER_JOB)
+    planes = take(one.planes.shape)
+    run_ranges(lambda a, b: _fill(planes, (a, b), drawn, layout, upstream, first), planes.shape[1], ROWS_PER_JOB)
     row = -(-(MOMENTS + layout.slots) // 8) * 8
     slopes = Slopes(planes.ravel(), take((len(bins.rank) * row,)), row)
     tiles = bins.tiles_x * bins.tiles_y
@@ -219,7 +218,7 @@ def _add_gradients(
     run_ranges(lambda a, b: slope_tiles(a, b, one.drawing, bins, slopes, scratch(floats)), tiles, _tile_chunk(bins))
     ranks = len(bins.order)
     chunk = _splat_chunk(ranks)
-    sums, scene = Sums(slopes.rows, row, one.drawing.hits, columns), (drawn.lens, drawn.cloud)
+    sums, scene = Sums(slopes.rows, row, one.drawing.hits, layout.feature_of_slot()), (drawn.lens, drawn.cloud)
 
     def job(index: int) -> None:
         span = (index * chunk, min((index + 1) * chunk, ranks))
@@ -228,16 +227,28 @@ def _add_gradients(
     run_jobs(job, -(-ranks // chunk))
 
 
-def _upstream(given: Rendering[np.ndarray], *, first: bool) -> Upstream:
-    """Upstream gradients as the kernels read them; depth and alpha count in the first pass only."""
-    features = np.require(given.features, np.float32, ["A", "W"])
-    if min(features.strides) < 0 or features.size == 0:
-        features = np.zeros((1, 1, 1), np.float32) if features.size == 0 else features.copy()
-    steps = [step // features.itemsize for step in features.strides]
-    reach = 1 + sum((size - 1) * step for size, step in zip(features.shape, steps, strict=True))
-    flat = np.lib.stride_tricks.as_strided(features, (reach,), (features.itemsize,))
-    alpha, depth = (np.require(a, np.float32, ["C", "W"]) if first else NOTHING for a in (given.alpha, given.depth))
-    return Upstream(alpha, depth, flat, (steps[0], steps[1], steps[2]))
+def _fill(
+    planes: np.ndarray,
+    rows: tuple[int, int],
+    drawn: Drawn,
+    layout: Layout,
+    upstream: Rendering[np.ndarray],
+    first: bool,
+) -> None:
+    """Rows of the planes of a pass's upstream gradients: 0 outside the picture and in empty slots."""
+    width, slots = drawn.lens.width, layout.feature_slots()
+    band, inside = planes[:, rows[0] : rows[1]], slice(rows[0], min(rows[1], drawn.lens.height))
+    height = max(inside.stop - inside.start, 0)
+    band[:, height:] = 0
+    band[:, :height, width:] = 0
+    band[2 if first else 0 : 1 + slots.start] = 0
+    band[1 + slots.stop :] = 0
+    if first:
+        band[0, :height, :width] = upstream.alpha[inside]
+        band[1, :height, :width] = upstream.depth[inside]
+    features = np.moveaxis(np.asarray(upstream.features)[inside], 2, 0)
+    for columns, places in layout.columns():
+        band[1 + places.start : 1 + places.stop, :height, :width] = features[columns]
 
 
 def room(floats: int, marks: int) -> tuple[np.ndarray, np.ndarray]:
