@@ -70,7 +70,7 @@ def run_whole(job: Callable[[int], object], count: int) -> None:
     """
 
     def alone(index: int) -> None:
-        before, _local.alone = _alone(), True
+        before, _local.alone = getattr(_local, "alone", False), True
         try:
             job(index)
         finally:

@@ -32,7 +32,7 @@ from genmojo_core.priors.references import LEAST_VISIBLE, PlacedReference, refer
 from genmojo_core.priors.sds import Mode, distil
 from genmojo_core.priors.solids import HALF_EXTENT
 from genmojo_core.priors.zero123 import Zero123Prior
-from genmojo_core.render.backend import Splat
+from genmojo_core.render.backend import Splat, splat_frames
 from genmojo_core.render.rasterizer import Splats
 from genmojo_core.scene import safemath
 from genmojo_core.scene.deform import Deformation
@@ -205,11 +205,10 @@ class UnseenViews:
         side = self.prior.resolution * render_factor(moment.share)
         distance = self.prior.distance(placed.reference)
         focal = side / 2 * distance / HALF_EXTENT
-        pictures = []
-        for pose in view_cameras(placed.reference, views, distance):
-            drawn = self.splat(splats, View(pose, focal, focal, side / 2, side / 2, side, side))
-            pictures.append(torch.cat([drawn.features, drawn.alpha[..., None]], dim=-1).movedim(-1, 0))
-        return torch.stack(pictures)
+        poses = view_cameras(placed.reference, views, distance)
+        cameras = [View(pose, focal, focal, side / 2, side / 2, side, side) for pose in poses]
+        drawn = splat_frames(self.splat, [splats] * len(cameras), cameras)
+        return torch.stack([torch.cat([p.features, p.alpha[..., None]], dim=-1).movedim(-1, 0) for p in drawn])
 
     def _splats(self, model: ObjectModel, placed: PlacedReference, t: int, deform: bool) -> tuple[Tensor, ...]:
         """Means, quats, scales, opacities and colours of one object at frame t in the prior's space."""

@@ -7,6 +7,7 @@ import re
 import shutil
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import numba
@@ -194,6 +195,17 @@ def test_large_jobs_are_all_done_once_and_may_use_threads_themselves(count: int,
     finally:
         threads.set_threads(0)
     assert (done == 1).all()
+
+
+def test_threads_share_work_again_after_a_large_job_on_one() -> None:
+    met = threading.Barrier(2)
+    try:
+        threads.set_threads(1)
+        threads.run_whole(lambda index: None, 2)
+        threads.set_threads(2)
+        threads.run_jobs(lambda index: met.wait(timeout=120), 2)  # breaks where one thread does both
+    finally:
+        threads.set_threads(0)
 
 
 def test_what_a_large_job_raises_reaches_the_caller() -> None:
