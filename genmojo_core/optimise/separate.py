@@ -12,7 +12,7 @@ import torch
 from torch import Tensor
 
 from genmojo_core.optimise import losses
-from genmojo_core.optimise.objective import Objective
+from genmojo_core.optimise.objective import Objective, States
 from genmojo_core.optimise.targets import FrameTargets
 from genmojo_core.render.rasterizer import Rendering, Splats
 from genmojo_core.scene.scene4d import ObjectState
@@ -21,7 +21,7 @@ from genmojo_core.scene.scene4d import ObjectState
 class SeparateObjective(Objective):
     """The joint objective with data terms per object; pictures and held-out pixels are still judged together."""
 
-    def _render(self, frames: list[int], states: dict[int, list[ObjectState]]) -> list[Rendering]:
+    def _render(self, frames: list[int], states: States) -> list[Rendering]:
         self._states = states
         with torch.no_grad():
             return super()._render(frames, states)

@@ -70,7 +70,7 @@ class _Splat(torch.autograd.Function):
 
         def job(k: int) -> None:
             pose, *parts = inputs[k * INPUTS : (k + 1) * INPUTS]
-            arrays = Splats(*(p.detach().numpy() for p in parts))
+            arrays = Splats(*(p.detach().numpy() for p in parts if p is not None))
             matrix = None if pose is None else pose.detach().double().numpy()
             drawn[k] = draw(arrays, views[k], detached_channels=detached, pose=matrix)
 

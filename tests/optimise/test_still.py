@@ -47,7 +47,7 @@ def test_a_window_shows_what_the_joint_splat_shows_there(clip: Clip) -> None:
         whole = everything.picture(t, True)
         assert close(run.objective.picture(t, True), whole)
         now = run.scene.states([t], True)[0]
-        target, seen = run.objective._compared(t, now, None)
+        [(target, seen)] = run.objective._compared([t], {t: now})
         rows, columns = target.window.slices()
         assert close(seen.features[..., :3], whole[rows, columns])
         assert bool((run.targets.frame(t).labels[rows, columns] > 0).sum() == (run.targets.frame(t).labels > 0).sum())
