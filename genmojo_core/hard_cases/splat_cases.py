@@ -167,7 +167,7 @@ def screen_filling_object() -> str:
     limit = run.scene.cameras.size
     run.scene.cameras = run.scene.cameras.resized(limit[0] * 400, limit[1] * 400)
     try:
-        run.objective._render(0, run.scene.states([0])[0], None)
+        run.objective.picture(0, deform=False)
     except GenmojoError as error:
         hold(run.scene.objects[0].name in error.sentence(), f"the refusal does not name the object: {error.sentence()}")
         return error.sentence()
