@@ -222,6 +222,9 @@ QCheckBox::indicator, QAbstractItemView::indicator { width: 13px; height: 13px; 
   border-radius: 3px; background: @field@; }
 QCheckBox::indicator:checked, QAbstractItemView::indicator:checked { background: @accent@; border: 1px solid @accent@;
   image: url("@icons@/check.svg"); }
+QRadioButton::indicator { width: 11px; height: 11px; border: 1px solid @dim@; border-radius: 6px; background: @field@; }
+QRadioButton::indicator:checked { width: 5px; height: 5px; border: 4px solid @accent@; background: @on_accent@; }
+QRadioButton::indicator:focus, QRadioButton::indicator:checked:focus { border-color: @text@; }
 QCheckBox::indicator:focus { border: 1px solid @accent@; }
 QCheckBox::indicator:checked:focus { border: 1px solid @text@; }
 QAbstractItemView { background: @field@; border: 1px solid @line@; selection-background-color: @accent@;

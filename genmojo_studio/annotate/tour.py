@@ -127,7 +127,9 @@ class Tour(QFrame):
         self.frame = _Frame(workspace)
         self.title, self.text, self.count = QLabel(), QLabel(wordWrap=True), QLabel()
         self.setObjectName("tour")
-        self.setStyleSheet("#tour { border: 2px solid rgb(255, 190, 60); border-radius: 6px; }")
+        self.setStyleSheet(
+            "#tour { background: palette(window); border: 2px solid rgb(255, 190, 60); border-radius: 6px; }"
+        )
         self.count.setProperty("role", "dim")
         self.back, self.next = QPushButton(tr("Back")), QPushButton(tr("Next"))
         self.end = QPushButton(tr("End the tour"))

@@ -43,6 +43,16 @@ def test_a_scribble_is_enough():
     assert iou(found[0] == 1, labels[0] == 1) > 0.85
 
 
+def test_an_object_as_large_as_the_picture_is_followed():
+    """More than 32,767 pixels, where OpenCV's remap of a row of places ends."""
+    frames, labels, _ = squares(count=3, size=320, side=230, step=3)
+    y, x = np.nonzero(labels[0])
+    box = Box(0, float(x.min()), float(y.min()), float(x.max()), float(y.max()))
+    found = masks_from_prompts(frames, [box], (320, 320))
+    assert labels[0].sum() > 40_000
+    assert min(iou(found[t] == 1, labels[t] == 1) for t in range(3)) > 0.7
+
+
 def test_a_hidden_object_is_empty_and_found_when_it_returns():
     frames, labels = red_square(count=12, step=3, hidden=(5, 6, 7))
     found = masks_from_prompts(frames, [Box(0, 3, 33, 33, 63)], (120, 96))

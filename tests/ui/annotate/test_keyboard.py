@@ -181,6 +181,9 @@ def test_the_merge_and_its_keys(workspace, qtbot):
 def test_the_tour(workspace, qtbot):
     choose_all(workspace)
     workspace.start_tour()
+    note = workspace.tour.geometry()
+    corner = workspace.grab().toImage().pixelColor(note.left() + 8, note.bottom() - 8)
+    assert corner == workspace.tour.palette().window().color(), "what lies below must not shine through"
     workspace.tour.go(1)
     way, unseen = walk(workspace.tour.next, workspace.canvas)
     assert set(controls(workspace.tour)) <= set(way) and not said(unseen)
