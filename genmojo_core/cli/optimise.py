@@ -128,6 +128,7 @@ class Job:
 def optimize_clip(clip: Clip, plan: EffectPlan, config: RunConfig, job: Job) -> dict[str, Any]:
     """Run to the end or to Ctrl-C, write the scene, measure it; returns what `optimize --json` prints."""
     from genmojo_core.effects import forecast
+    from genmojo_core.measure import effect_costs
     from genmojo_core.measure.scoring import Scorer
     from genmojo_core.measure.truth import find_truth
     from genmojo_core.optimise.run import Run
@@ -153,7 +154,7 @@ def optimize_clip(clip: Clip, plan: EffectPlan, config: RunConfig, job: Job) -> 
         raise watched.fault
     result: dict[str, Any] = {
         "seconds": time.monotonic() - job.start, "steps": watched.step, "psnr": None, "psnr_full": None,
-        "peak_mb": peak_mb(), "effects": plan.to_json(), "path": str(job.output), "curve": scene.curve,
+        "peak_mb": peak_mb(), "effects": run.plan.to_json(), "path": str(job.output), "curve": scene.curve,
         "guesses": list(clip.guesses), "gaussians": len(scene.xyz), "optimise_seconds": watched.seconds,
         "cpu_seconds": watched.cpu_seconds, "first_scene_seconds": watched.first_scene, "reason": watched.reason,
         "frames": len(clip), "warnings": watched.warnings,
@@ -161,6 +162,7 @@ def optimize_clip(clip: Clip, plan: EffectPlan, config: RunConfig, job: Job) -> 
     if interrupted():
         say(f"Interrupted; what stood was written to {job.output}.")
         return result | {"exit_code": 130}
+    effect_costs.keep_run(clip.name, run.plan)
     figures = _measured(scene, clip, job)
     took = watched.cpu_seconds if config.clock == "cpu" else watched.seconds
     came = None if expected is None else forecast.outcome(expected, took, figures["psnr"])

@@ -78,7 +78,7 @@ def run_tradeoff(args: argparse.Namespace) -> dict[str, Any]:
 
         rows, left = tradeoff.tradeoff(wanted, folder, hear)
     report = tradeoff_page.write(Path(args.clip).name, rows, left, folder)
-    effect_costs.keep(report)
+    effect_costs.keep_report(report)
     return report
 
 

@@ -66,16 +66,21 @@ def costs_file() -> Path:
 
 
 def known_costs() -> dict[str, dict[str, Any]]:
-    """Effect name -> `ms` per step, `psnr` in dB where known, `clip`: as the last report here measured; {} before."""
+    """Effect name -> `ms` per step and its `ms_clip`, `psnr` gained in dB and its `psnr_clip`, as last measured here.
+
+    {} before anything was measured, or where the file is not one.
+    """
     try:
         stored = json.loads(costs_file().read_text())
-        return {
-            str(name): {"clip": str(row["clip"]), **{k: float(row[k]) for k in ("ms", "psnr") if k in row}}
-            for name, row in stored.items()
-            if np.isfinite(float(row["ms"]))
-        }
+        return {str(name): _known(row) for name, row in stored.items()}
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return {}
+
+
+def _known(row: dict[str, Any]) -> dict[str, Any]:
+    return {k: float(row[k]) for k in ("ms", "psnr") if k in row} | {
+        f"{k}_clip": str(row[f"{k}_clip"]) for k in ("ms", "psnr") if k in row
+    }
 
 
 def contention() -> float:

@@ -129,7 +129,9 @@ def _item(row: Mapping[str, Any]) -> QTreeWidgetItem:
     bound = f"{row['threshold']:.3g}"
     sign = "≥" if row["evidence"] >= row["threshold"] else "<"
     known = row.get("known")
-    cost = tr("{ms:.1f} ms measured").format(ms=known["ms"]) if known else f"{row['ms_per_step']:.1f} ms"
+    cost = (
+        tr("{ms:.1f} ms measured").format(ms=known["ms"]) if known and "ms" in known else f"{row['ms_per_step']:.1f} ms"
+    )
     item = QTreeWidgetItem([_title(str(row["name"])), f"{evidence} {sign} {bound}", cost])
     item.setData(0, _NAME, row["name"])
     item.setCheckState(0, Qt.CheckState.Checked if row["on"] else Qt.CheckState.Unchecked)
@@ -140,7 +142,7 @@ def _item(row: Mapping[str, Any]) -> QTreeWidgetItem:
                 evidence=evidence, bound=bound, origin=_words(row.get("origin_said")) or row["origin"]
             ),
             tr("Costs about {ms:.1f} ms per step and {mb:.1f} MB.").format(ms=row["ms_per_step"], mb=row["mb"]),
-            *([_known(known)] if known else []),
+            *_known(known or {}),
         )
     )
     for column in range(3):
@@ -148,11 +150,14 @@ def _item(row: Mapping[str, Any]) -> QTreeWidgetItem:
     return item
 
 
-def _known(known: Mapping[str, Any]) -> str:
-    """What a report on this machine measured of an effect."""
+def _known(known: Mapping[str, Any]) -> list[str]:
+    """What runs and reports on this machine measured of an effect."""
+    said = []
+    if "ms" in known:
+        said.append(tr("Measured here: {ms:.1f} ms per step ('{ms_clip}').").format(**known))
     if "psnr" in known:
-        return tr("Measured on this machine on '{clip}': {ms:+.1f} ms per step, {psnr:+.2f} dB.").format(**known)
-    return tr("Measured on this machine on '{clip}': {ms:+.1f} ms per step.").format(**known)
+        said.append(tr("Gained here: {psnr:+.2f} dB ('{psnr_clip}').").format(**known))
+    return said
 
 
 def _words(said: Sequence[Any] | None) -> str:

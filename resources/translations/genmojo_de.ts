@@ -1884,10 +1884,6 @@
       <translation>Median {value:.0f}</translation>
     </message>
     <message>
-      <source>Measured on this machine on '{clip}': {ms:+.1f} ms per step.</source>
-      <translation>Auf diesem Rechner an „{clip}“ gemessen: {ms:+.1f} ms je Schritt.</translation>
-    </message>
-    <message>
       <source>Effect</source>
       <translation>Effekt</translation>
     </message>
@@ -1902,10 +1898,6 @@
     <message>
       <source>{ms:.1f} ms measured</source>
       <translation>{ms:.1f} ms gemessen</translation>
-    </message>
-    <message>
-      <source>Measured on this machine on '{clip}': {ms:+.1f} ms per step, {psnr:+.2f} dB.</source>
-      <translation>Auf diesem Rechner an „{clip}“ gemessen: {ms:+.1f} ms je Schritt, {psnr:+.2f} dB.</translation>
     </message>
     <message>
       <source>Joint occlusion</source>
@@ -1962,6 +1954,14 @@
     <message>
       <source>Costs about {ms:.1f} ms per step and {mb:.1f} MB.</source>
       <translation>Kostet etwa {ms:.1f} ms je Schritt und {mb:.1f} MB.</translation>
+    </message>
+    <message>
+      <source>Measured here: {ms:.1f} ms per step ('{ms_clip}').</source>
+      <translation>Hier gemessen: {ms:.1f} ms je Schritt („{ms_clip}“).</translation>
+    </message>
+    <message>
+      <source>Gained here: {psnr:+.2f} dB ('{psnr_clip}').</source>
+      <translation>Hier gewonnen: {psnr:+.2f} dB („{psnr_clip}“).</translation>
     </message>
     <message>
       <source>Picture of this view</source>

@@ -48,9 +48,12 @@ def test_costs_of_a_report_are_known_later(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setattr(machine, "user_cache", lambda: tmp_path)
     assert machine.known_costs() == {}
     part = {"title": "non rigid motion", "kind": "effect", "ms": 12.5, "gain": {"psnr": 1.25}}
-    assert effect_costs.keep({"clip": "cups", "parts": [part, {**part, "title": "rgb", "kind": "loss"}]})
-    assert machine.known_costs() == {"non_rigid_motion": {"clip": "cups", "ms": 12.5, "psnr": 1.25}}
-    assert effect_costs.keep({"clip": "bear", "parts": [{**part, "title": "flow", "gain": {}}]})
-    assert set(machine.known_costs()) == {"non_rigid_motion", "flow"}
+    assert effect_costs.keep_report({"clip": "cups", "parts": [part, {**part, "title": "rgb", "kind": "loss"}]})
+    assert machine.known_costs() == {"non_rigid_motion": {"psnr": 1.25, "psnr_clip": "cups"}}
+    measured = plan(two_apart(), CONFIG).changed("non_rigid_motion", measured_ms=9.5)
+    assert effect_costs.keep_run("bear", measured)
+    both = {"ms": 9.5, "ms_clip": "bear", "psnr": 1.25, "psnr_clip": "cups"}
+    assert machine.known_costs() == {"non_rigid_motion": both}
+    assert not effect_costs.keep_run("bear", plan(two_apart(), CONFIG))
     machine.costs_file().write_text("[]")
     assert machine.known_costs() == {}

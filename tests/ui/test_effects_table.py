@@ -13,7 +13,7 @@ from tests.effects.test_effects import two_apart
 
 def test_evidence_is_told_in_german_with_measured_costs(qtbot):
     rows = plan(two_apart(), preset("draft"), {"flow": False}).to_json()
-    known = {"clip": "cups", "ms": 12.5, "psnr": 1.25}
+    known = {"ms_clip": "cups", "ms": 12.5, "psnr": 1.25, "psnr_clip": "bear"}
     rows = [{**row, "known": known if row["name"] == "depth_order" else None} for row in rows]
     translators = translate.install("de")
     try:
@@ -25,7 +25,9 @@ def test_evidence_is_told_in_german_with_measured_costs(qtbot):
         assert "stetiges Licht" in items["appearance_change"].toolTip(0)
         assert "% Helligkeit" in items["appearance_change"].text(1)
         assert items["flow"].toolTip(0).startswith("Von Hand ausgeschaltet. Der Fluss gilt in")
-        assert items["depth_order"].text(2) == "12.5 ms gemessen" and "„cups“" in items["depth_order"].toolTip(0)
+        assert items["depth_order"].text(2) == "12.5 ms gemessen" and "+1.25 dB („bear“)" in items[
+            "depth_order"
+        ].toolTip(0)
         assert items["background"].text(2).endswith(" ms")
     finally:
         for translator in translators:
