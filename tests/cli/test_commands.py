@@ -248,7 +248,7 @@ class FakeRun:
     fails = False
 
     def __init__(self, clip, plan, config, run_dir=None, resume=False, curve_path=None) -> None:
-        self.stopped = False
+        self.stopped, self.plan = False, plan
 
     def stop(self) -> None:
         self.stopped = True
