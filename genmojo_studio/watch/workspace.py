@@ -22,9 +22,9 @@ from genmojo_studio.watch.actions import PANELS
 from genmojo_studio.watch.appearance import Appearance
 from genmojo_studio.watch.center import Center
 from genmojo_studio.watch.compare_panel import ComparePanel
-from genmojo_studio.watch.considerate import Considerate
 from genmojo_studio.watch.controls import scrolled
 from genmojo_studio.watch.curves import Curves
+from genmojo_studio.watch.draw_cost import DrawCost
 from genmojo_studio.watch.leaving import may_leave
 from genmojo_studio.watch.live_view import LiveView
 from genmojo_studio.watch.objects_panel import ObjectsPanel
@@ -61,8 +61,8 @@ class WatchWorkspace(QMainWindow):
         self.control = RunControl(self)
         self.player = Player(state, self.isVisible, self)
         self.view = LiveView(state, self.appearance, self.undo)
-        self.considerate = Considerate(self.view, self.control.client, self)
-        self.control.draw_share = lambda: self.considerate.share
+        self.draw_cost = DrawCost(self.view, self.control.client, self)
+        self.control.draw_share = lambda: self.draw_cost.share
         self.compare = ComparePanel(state)
         self.center = Center(state, actions, self.session, self.view, self.compare.pane)
         self.view_panel = ViewPanel(state, actions, self.appearance)

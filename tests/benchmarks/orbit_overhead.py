@@ -24,7 +24,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 from genmojo_studio.app import make_application  # noqa: E402 - after the path is set
 from genmojo_studio.view3d.orbit import Orbit  # noqa: E402
 from genmojo_studio.view3d.scene_view import SceneView  # noqa: E402
-from genmojo_studio.watch.considerate import Considerate  # noqa: E402
+from genmojo_studio.watch.draw_cost import DrawCost  # noqa: E402
 from genmojo_studio.worker.protocol import RunRequest  # noqa: E402
 from tests.benchmarks.worker_overhead import compared, pin, turn  # noqa: E402
 from tests.worker.driving import Watched, watched  # noqa: E402
@@ -42,7 +42,7 @@ class Looker:
         self.moving = False
         self.view.frame_drawn.connect(self._drawn)
         window.client.preview_ready.connect(self.view.set_snapshot)
-        self.considerate = Considerate(self.view, window.client)
+        self.draw_cost = DrawCost(self.view, window.client)
 
     def start(self, moving: bool) -> None:
         """Orbit from now on, or rest."""
@@ -96,7 +96,7 @@ def main() -> None:
             window.answer(window.client.stop(keep=False), 60)
     found = compared(rows, "orbiting", "off")
     print(json.dumps({"orbiting_over_off": found, "frames": looker.frames, "shared": args.shared, "view": beat["view"],
-                      "told": looker.considerate.share, "fps": statistics.median(rates),
+                      "told": looker.draw_cost.share, "fps": statistics.median(rates),
                       "load": os.getloadavg()[0]}))  # fmt: skip
     del application
 

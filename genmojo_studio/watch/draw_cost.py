@@ -1,4 +1,4 @@
-"""The view's consideration for a run on the same machine: frames at a pace that the optimiser hardly feels."""
+"""What drawing costs a run on the same machine, and frames at a pace that the optimiser hardly feels."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from genmojo_studio.worker.client import WorkerClient
 _AT_WORK = ("running", "stepping", "finishing")
 
 
-class Considerate(QObject):
+class DrawCost(QObject):
     """Paces a view by what its drawing costs the run of a client; `share` of a step is what it costs now."""
 
     def __init__(self, view: SceneView, client: WorkerClient, parent: QObject | None = None) -> None:
