@@ -45,6 +45,7 @@ class LearningRates:
     bases: float = 2e-3
     placement: float = 1e-3
     delta_color: float = 1e-3
+    shade: float = 5e-3  # eight numbers that every Gaussian has a say in
 
 
 @dataclass(frozen=True)

@@ -108,8 +108,8 @@ def group_of(kind: str, members: list[torch.nn.Parameter], config: RunConfig) ->
 
 
 def start_rate(kind: str, rates: LearningRates) -> float:
-    """First learning rate of a group of parameters; the frame's gain and shading are changes of colour."""
-    return float(getattr(rates, "delta_color" if kind in ("log_gain", "shade") else kind))
+    """First learning rate of a group of parameters; the frame's gain is a change of colour."""
+    return float(getattr(rates, "delta_color" if kind == "log_gain" else kind))
 
 
 def set_rates(optimiser: torch.optim.Optimizer, progress: float, caution: float = 1.0) -> None:
