@@ -118,7 +118,9 @@ class StillObjective(Objective):
         self.held, self._backdrop = True, None
         self._sums: dict[int, tuple[Tensor, Tensor, Tensor]] = {}
         self._cut: dict[int, tuple[Window, FrameTargets]] = {}
-        self._background().requires_grad_(False)
+        background = self._background()
+        background.zero_grad(set_to_none=True)  # the last of its own fit
+        background.requires_grad_(False)
 
     def backdrop(self) -> Rendering:
         """The background alone, without light: features (H, W, 3), depth and alpha (H, W)."""
