@@ -198,6 +198,11 @@ class WorkerClient(QObject):
         self._versions = 0
 
     def _must_be_free(self) -> None:
+        if self._process is not None and self.state == "done":  # it has said all; its process may take a moment to go
+            self._line.drain()
+            self._catch_up(None)
+            self._remove_buses()
+            self.detach()
         if self._process is not None:
             raise GenmojoError("argument", "a run is going on here", self.run_dir, "stop it or detach first")
 
@@ -259,9 +264,7 @@ class WorkerClient(QObject):
         self._process = None
         self._line.close()
         self._catch_up(None)
-        for bus in Path(self.run_dir).glob("*.bus"):
-            with contextlib.suppress(OSError):  # on Windows a mapped file stays until the next run
-                bus.unlink()
+        self._remove_buses()
         left = runs.read_json(Path(self.run_dir) / runs.EXIT)
         if left.get("kind") == "done" and left.get("pid") == process.pid:
             self._enter("done")
@@ -271,6 +274,11 @@ class WorkerClient(QObject):
         self._enter("failed")
         self.died.emit(report)
         return True
+
+    def _remove_buses(self) -> None:
+        for bus in Path(self.run_dir).glob("*.bus"):
+            with contextlib.suppress(OSError):  # on Windows a mapped file stays until the next run
+                bus.unlink()
 
     def _on_message(self, message: dict[str, Any]) -> None:
         """One message of the worker."""

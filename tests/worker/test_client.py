@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PySide6.QtCore import QTimer
 
 from genmojo_core.errors import GenmojoError
 from genmojo_studio.worker import runs
@@ -30,6 +31,24 @@ def test_a_run_from_start_to_scene(tmp_path):
         last = window.snapshots[-1]
         assert last.step == 40 and last.T == 4 and last.objects[0].name == "one" and last.cameras.size == (128, 96)
         assert (tmp_path / "scene.h5").exists() and not window.reports and runs.live_runs() == []
+
+
+def test_the_next_run_begins_while_the_last_worker_leaves(tmp_path):
+    """A person who starts anew at once is not told that a run is going on: the last one has said that it is done."""
+    with watched() as window:
+        window.client.start(fake_request(tmp_path / "first", steps=20))
+        begun = []
+
+        def again(state):
+            if state == "done" and not begun:
+                begun.append(True)  # within the next moment, so that the last process still lives
+                QTimer.singleShot(0, lambda: window.client.start(fake_request(tmp_path / "second", steps=30)))
+
+        window.client.state_changed.connect(again)
+        window.until(lambda: (tmp_path / "second" / "scene.h5").exists() and window.client.state == "done")
+        assert (tmp_path / "first" / "scene.h5").exists() and (tmp_path / "second" / "scene.h5").exists()
+        assert not window.reports
+        assert not list((tmp_path / "first").glob("*.bus"))
 
 
 def test_pause_step_and_stage(tmp_path):
