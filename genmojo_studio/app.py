@@ -75,6 +75,9 @@ def make_window(application: QApplication, settings: Settings) -> MainWindow:
     for action_id, keys in settings.own_keys().items():
         if table.has(action_id):
             table.set_keys(action_id, keys)
+    collector = application.findChild(Collector)
+    if collector is not None:
+        state.subscribe(collector.sweep, "clip_path")
     return MainWindow(state, table, settings)
 
 

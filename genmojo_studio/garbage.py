@@ -11,16 +11,20 @@ import gc
 from PySide6.QtCore import QObject, QTimer
 
 _EVERY_MS = 250
+_OLDEST = 2  # generation
 
 
 class Collector(QObject):
-    """Collects by Python's own thresholds, from a timer of the thread that made it, instead of Python."""
+    """Collects by Python's own thresholds, from a timer of the thread that made it, instead of Python.
+
+    What outlived a full collection is not gone through again until the next `sweep`: with hours of curves and pictures
+    in memory that would hold up the window.
+    """
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
-        gc.collect()
-        gc.freeze()  # modules and their like need not be gone through again
         gc.disable()
+        self.sweep()
         self._timer = QTimer(self, interval=_EVERY_MS)
         self._timer.timeout.connect(self.collect)
         self._timer.start()
@@ -32,3 +36,11 @@ class Collector(QObject):
         ]
         if due:
             gc.collect(due[-1])
+        if due and due[-1] == _OLDEST:
+            gc.freeze()
+
+    def sweep(self) -> None:
+        """Everything, however old; for moments when the window changes as a whole."""
+        gc.unfreeze()
+        gc.collect()
+        gc.freeze()

@@ -6,6 +6,7 @@ to that.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from shiboken6 import isValid
 
 ICONS = Path(__file__).resolve().parent.parent / "resources" / "icons"
-_AT_ONCE = 60  # widgets that are dressed anew in one tick
+_AT_ONCE = 40  # widgets that are dressed anew in one tick
 
 
 @dataclass(frozen=True)
@@ -90,7 +91,7 @@ def contrast(first: str, second: str) -> float:
 
 
 def apply(application: QApplication, theme: str) -> None:
-    """Dresses the whole application in a theme: what is on show at once, the rest in the ticks after it.
+    """Dresses the whole application in a theme: its windows at once, what is in them in the ticks after it.
 
     The style sheet is the same for all themes and takes its colours from the palette, so it is set once. Widgets keep
     what it told them until they are polished anew; to set another sheet would do that to all of them in one go, which
@@ -101,26 +102,46 @@ def apply(application: QApplication, theme: str) -> None:
         application.setStyle("Fusion")
         application.setStyleSheet(_style_sheet())
         return
-    widgets = application.allWidgets()
-    _polish([widget for widget in widgets if widget.isVisible()])
-    hidden = [widget for widget in widgets if not widget.isVisible()]
-    QTimer.singleShot(0, lambda: _polish_later(hidden))
+    windows = [widget for widget in application.topLevelWidgets() if widget.isVisible()]
+    _polish(windows)
+    _go_on(_dress(application, windows))
+
+
+def _dress(application: QApplication, windows: list[QWidget]) -> Iterator[None]:
+    """Polish all widgets, a few in each tick, those on show first; the windows are drawn once these are done."""
+    for window in windows:
+        window.setUpdatesEnabled(False)
+    yield
+    shown: list[QWidget] = []
+    hidden: list[QWidget] = []
+    for widget in application.allWidgets():
+        (shown if widget.isVisible() else hidden).append(widget)
+    for first in range(0, len(shown), _AT_ONCE):
+        yield
+        _polish(shown[first : first + _AT_ONCE])
+    yield
+    for window in windows:
+        if isValid(window):
+            window.setUpdatesEnabled(True)
+    for first in range(0, len(hidden), _AT_ONCE):
+        yield
+        _polish(hidden[first : first + _AT_ONCE])
 
 
 def _polish(widgets: list[QWidget]) -> None:
     for widget in widgets:
-        style = widget.style()
-        style.unpolish(widget)
-        style.polish(widget)
-        widget.update()
+        if isValid(widget):  # not deleted meanwhile
+            style = widget.style()
+            style.unpolish(widget)
+            style.polish(widget)
+            widget.update()
 
 
-def _polish_later(widgets: list[QWidget]) -> None:
-    """A few in each tick; those that were deleted meanwhile are passed over."""
-    now, rest = widgets[:_AT_ONCE], widgets[_AT_ONCE:]
-    _polish([widget for widget in now if isValid(widget)])
-    if rest:
-        QTimer.singleShot(0, lambda: _polish_later(rest))
+def _go_on(work: Iterator[None]) -> None:
+    """A tick of the work, and another one while there is more."""
+    for _ in work:
+        QTimer.singleShot(0, lambda: _go_on(work))
+        break
 
 
 def _roles(table: Colours) -> dict[QPalette.ColorRole, str]:

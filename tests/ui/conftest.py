@@ -53,6 +53,7 @@ def _windows_die_in_their_own_thread():
     """As in the app (garbage.py): closed windows are cycles, collected by the thread that made them."""
     gc.disable()
     yield
+    gc.unfreeze()
     gc.collect()
     gc.enable()
 

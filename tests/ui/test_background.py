@@ -85,3 +85,23 @@ def test_cycles_are_collected_by_the_timer_and_not_by_allocation(qapp, qtbot):
     qtbot.waitUntil(lambda: bool(died), timeout=60_000)
     assert set(died) == {threading.main_thread()}
     collector.deleteLater()
+
+
+def test_what_outlived_a_full_collection_waits_for_a_sweep(qapp, qtbot):
+    keeper = QObject()
+    collector = Collector(keeper)
+
+    class Node:
+        """Half of a cycle."""
+
+    a, b = Node(), Node()
+    a.other, b.other = b, a
+    gone = weakref.ref(a)
+    gc.collect()
+    gc.freeze()  # as after a collection of the oldest generation
+    del a, b
+    gc.collect()
+    assert gone() is not None
+    collector.sweep()
+    assert gone() is None
+    collector.deleteLater()
