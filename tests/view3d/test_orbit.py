@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scenes import small_scene
 
@@ -34,7 +34,8 @@ def reference(pitch: float = 12.0, yaw: float = 40.0, roll: float = 0.0) -> Refe
 def test_numbers_survive_the_way_to_a_camera_and_back(
     elevation: float, azimuth: float, roll: float, radius: float, pitch: float
 ) -> None:
-    """Within 1e-6 degrees, whatever the input camera's own tilt."""
+    """Within 1e-6 degrees, whatever the input camera's own tilt, short of the poles, where numbers are not unique."""
+    assume(abs(elevation + pitch) < 89)
     given_orbit = Orbit(elevation, azimuth, roll, radius)
     found = reference(pitch).orbit_of(reference(pitch).pose(given_orbit))
     assert found.elevation == pytest.approx(elevation, abs=1e-6)
