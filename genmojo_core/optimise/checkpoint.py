@@ -93,6 +93,11 @@ def peek(folder: Path) -> dict[str, Any]:
     return dict(_read(folder)[0]["meta"])
 
 
+def holds(folder: Path, name: str) -> bool:
+    """True if the checkpoint has the scene's parameter of that name. Raises as `load`."""
+    return f"scene/{name}" in _read(folder)[1]
+
+
 def exists(folder: Path) -> bool:
     """True if the run folder holds a checkpoint."""
     return (folder / "checkpoint.json").is_file()

@@ -15,6 +15,7 @@ from torch import Tensor
 
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.events import EffectChanged, Event
+from genmojo_core.optimise import checkpoint
 from genmojo_core.optimise.targets import Targets
 from genmojo_core.scene import safemath
 from genmojo_core.scene.scene4d import ObjectModel, ObjectState, Scene4D
@@ -32,6 +33,12 @@ DARKEST, BRIGHTEST = 0.06, 0.95  # brightness outside of which a change says not
 def start_shading(run: Run) -> Iterator[Event]:
     """Give the scene of a run its shading, if the plan asks for it and the clip's pixels agree."""
     if not run.plan.on("shading"):
+        return
+    if run.resume and run.run_dir is not None:  # as it was decided then
+        if checkpoint.holds(run.run_dir, "shade.shade"):
+            run.scene.shade = Shade()
+        else:
+            run.plan = run.plan.changed("shading", on=False, reason="Left out before the run was interrupted.")
         return
     start, share = measured(run.scene, run.targets)
     if share < LEAST and not run.plan.get("shading").overridden:
