@@ -58,7 +58,8 @@ def classify(
 
     Args:
         exit_code: as `Popen.returncode` (negative: signal), None where the window is not its parent.
-        beat: its last heartbeat ({} if none came). started: it ever said hello. pid: of the worker, None if unknown.
+        beat: its last heartbeat ({} if none came). started: it ever said hello; one that took the run's lock and ended
+            before a window could listen had started too. pid: of the worker, None if unknown.
     """
     folder = Path(run_dir)
     left = runs.read_json(folder / runs.EXIT)
@@ -81,7 +82,7 @@ def classify(
     if exit_code in (None, 0) or exit_code < 0:
         by = f" by {_signal(exit_code)}" if _signal(exit_code) else ""
         return _report("killed", f"The optimiser was ended from outside{by}.", log, folder, beat)
-    if not started:
+    if not started and (pid is None or runs.read_json(folder / runs.LOCK).get("pid") != pid):
         return _report("start", f"The optimiser could not start (exit code {exit_code}).", log, folder, beat)
     return _report("exception", f"The optimiser ended with exit code {exit_code}.", fault or log, folder, beat)
 

@@ -122,3 +122,11 @@ def test_a_kill_when_memory_was_short_is_called_that(tmp_path):
     assert death.classify(tmp_path, -9, {**beat, "available_mb": 4000.0}, True, 1).kind == "killed"
     (tmp_path / "fault.log").write_text("Fatal Python error: Segmentation fault")
     assert death.classify(tmp_path, None, {}, True, 1).kind == "segfault"  # another window's child: only the log tells
+
+
+def test_an_end_before_the_window_could_listen_is_no_failed_start(tmp_path):
+    """The worker took the run's lock, worked and ended between two looks of the window."""
+    assert death.classify(tmp_path, 3, {}, False, 7).kind == "start"
+    (tmp_path / runs.LOCK).write_text('{"pid": 7}')
+    assert death.classify(tmp_path, 3, {}, False, 7).kind == "exception"
+    assert death.classify(tmp_path, 3, {}, False, 8).kind == "start"  # the lock is an earlier worker's
