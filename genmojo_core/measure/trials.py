@@ -16,6 +16,7 @@ from genmojo_core.effects import decide
 from genmojo_core.effects.costs import BYTES_PER_VALUE
 from genmojo_core.effects.difficulty import Difficulty, difficulty
 from genmojo_core.effects.plan import EffectPlan
+from genmojo_core.effects.still import window_share
 from genmojo_core.errors import GenmojoError
 from genmojo_core.estimate.complete import complete
 from genmojo_core.events import Event, Failed, Finished, Preview, StageStarted, Step, Warned
@@ -89,8 +90,9 @@ class Bench:
         plan = decide.plan(clip, trial.config, trial.effects)
         row = {"key": trial.key, "kind": trial.kind, "title": trial.title, "seed": trial.config.seed,
                "moment": trial.moment, "vary": trial.vary, "frames": len(clip), "objects": clip.objects,
-               "size": list(clip.size), "on": [e.name for e in plan.effects if e.on], "prepare": prepared,
-               "difficulty": self._difficulty.to_json(), "config": trial.config.to_json()}  # fmt: skip
+               "size": list(clip.size), "window": window_share(clip), "prepare": prepared,
+               "on": [e.name for e in plan.effects if e.on], "difficulty": self._difficulty.to_json(),
+               "config": trial.config.to_json()}  # fmt: skip
         if trial.kind == "growth":
             return row | _growth(clip, plan, trial)
         run = Run(clip, plan, trial.config)

@@ -13,6 +13,7 @@ from table import Bench, Check
 
 from genmojo_core.clip import folders
 from genmojo_core.clip.synthetic import generate
+from genmojo_core.clip.synthetic_effects import made_clip
 from genmojo_core.clip.synthetic_files import write
 from genmojo_core.clip.synthetic_specs import BALL, SyntheticSpec
 from genmojo_core.config import preset
@@ -20,7 +21,10 @@ from genmojo_core.effects import decide
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.estimate.complete import complete
 from genmojo_core.estimate.masks import Box
+from genmojo_core.events import Finished
 from genmojo_core.measure import effect_truth
+from genmojo_core.measure.reconstruction import reconstruction
+from genmojo_core.optimise.run import Run
 
 SEEDS = (0, 1, 2)  # of runs whose accuracy is compared: one run of a draft is off by half a pixel of ATE
 TUNED, REPORTED = range(100), range(100, 200)  # seeds: thresholds may be fixed on the first, never on the second
@@ -71,10 +75,41 @@ def right(bench: Bench) -> list[Check]:
                 f"{row['effect']} ({row['called_for']} called for, {row['needless']} needless, {row['missed']} missed)"
             )
             checks.append(Check(said, 100 * row["correct"]))
-        if seeds is REPORTED:
-            misses = [asdict(row) for row in rows if not row.correct]
-            (bench.work / "misses.json").write_text(json.dumps(misses, indent=1))
     return checks
+
+
+def misses(bench: Bench) -> list[Check]:
+    """What each wrong decision on seeds 100-199 costs: a draft as planned against one with that decision put right."""
+    rows = [row for seed in REPORTED for row in _judged(bench, seed) if not row.correct]
+    costs = [_miss(bench, row) for row in rows]
+    (bench.work / "misses.json").write_text(
+        json.dumps([asdict(row) | cost for row, cost in zip(rows, costs, strict=True)], indent=1)
+    )
+    checks = [Check("wrong decisions", float(len(rows)))]
+    for kind, of in (("missed", True), ("needless", False)):
+        own = [cost for row, cost in zip(rows, costs, strict=True) if row.right == of]
+        lost, longer = [cost["dB lost"] for cost in own], [cost["CPU s longer"] for cost in own]
+        checks += [Check(f"{len(own)} {kind}: dB lost on average", mean(lost)), Check("most", max(lost)),
+                   Check("CPU s longer", mean(longer))] if own else []  # fmt: skip
+    return checks
+
+
+def _miss(bench: Bench, row: effect_truth.Judged) -> dict[str, float]:
+    """Decibels (foreground) and CPU seconds of a draft that a wrong decision costs, kept."""
+    kept = bench.work / "misses" / f"{row.seed}-{row.effect}.json"
+    if not kept.exists():
+        kept.parent.mkdir(exist_ok=True)
+        made = made_clip(row.seed)
+        clip = complete(generate(made.spec)[0])
+        config = replace(effect_truth.config_of(made), budget_seconds=1200.0)
+        found = []
+        for overrides in ({}, {row.effect: row.right}):
+            run = Run(clip, decide.plan(clip, config, overrides), config)
+            ends = [event.cpu_seconds for event in run if isinstance(event, Finished)]
+            found.append((reconstruction(run.bake(), clip)["psnr"], ends[0]))
+        (planned, took), (right_one, right_took) = found
+        kept.write_text(json.dumps({"dB lost": right_one - planned, "CPU s longer": took - right_took}))
+    return dict(json.loads(kept.read_text()))
 
 
 def simple(bench: Bench) -> list[Check]:

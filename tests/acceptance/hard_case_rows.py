@@ -20,7 +20,7 @@ def hard(bench: Bench) -> list[Check]:
 
 def mutations(bench: Bench) -> list[Check]:
     """Guards taken away in turn: each must make a named case fail."""
-    table = bench.python("-m", "tests.acceptance.mutations", ends=(0, 1))
+    table = bench.python("-m", "tests.acceptance.mutations", "--kept", str(bench.work / "mutations.jsonl"), ends=(0, 1))
     (bench.work / "mutations.md").write_text(table)
     rows = table.strip().splitlines()[2:]
     return [Check("guards", len(rows), 20),

@@ -1,7 +1,8 @@
 """Mutation check of issue 7: each guard is taken away in turn, and at least one named hard case has to fail.
 
-    python -m tests.acceptance.mutations [--only NAME]
+    python -m tests.acceptance.mutations [--only NAME] [--kept FILE]
 
+What is in FILE is not tried again, so an interrupted check goes on where it stopped.
 Guards inside compiled kernels are constants when those compile: each is taken away in a process of its own, which
 compiles anew into an empty cache. Not taken away is the budget of entries, whose case would fill the memory.
 """
@@ -9,12 +10,14 @@ compiles anew into an empty cache. Not taken away is the budget of entries, whos
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 from unittest import mock
 
@@ -134,19 +137,29 @@ def failing(mutation: Mutation) -> list[str]:
     return found
 
 
+def kept_rows(path: Path | None) -> dict[str, list[str]]:
+    """Cases that failed without each guard tried so far."""
+    return {} if path is None or not path.exists() else dict(map(json.loads, path.read_text().splitlines()))
+
+
 def main() -> int:
     """Print guard -> cases that fail without it; 1 if a guard is missed by nobody."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", default="", help="guards whose name contains this")
+    parser.add_argument("--kept", type=Path, help="file of results, a JSON line each")
     args = parser.parse_args()
     torch.set_num_threads(1)
-    survived = 0
+    kept, survived = kept_rows(args.kept), 0
     print("| guard taken away | cases that fail |\n|---|---|")
-    for mutation in (*MUTATIONS, *COMPILED):
-        if args.only in mutation.name:
+    for mutation in (m for m in (*MUTATIONS, *COMPILED) if args.only in m.name):
+        found = kept.get(mutation.name)
+        if found is None:
             found = failing(mutation) if isinstance(mutation, Mutation) else failing_compiled(mutation)
-            survived += not found
-            print(f"| {mutation.name} | {', '.join(found) or 'NONE'} |", flush=True)
+            if args.kept is not None:
+                with args.kept.open("a") as file:
+                    file.write(json.dumps([mutation.name, found]) + "\n")
+        survived += not found
+        print(f"| {mutation.name} | {', '.join(found) or 'NONE'} |", flush=True)
     return 1 if survived else 0
 
 

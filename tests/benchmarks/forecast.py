@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -41,10 +42,14 @@ def config_of(row: dict[str, Any]) -> RunConfig:
 
 
 def work(row: dict[str, Any]) -> Work:
-    made = work_of(tuple(row["size"]), row["frames"], row["objects"], row["on"], config_of(row))
-    if "moving" in row and row["moving"]:
-        return Work(**{**vars(made), "moving": row["moving"], "total": row["gaussians"]})
-    return Work(**{**vars(made), "total": row["gaussians"]})
+    made = planned_work(row)
+    splatted = row["gaussians"] - made.settled
+    return replace(made, moving=row.get("moving") or made.moving, total=splatted)
+
+
+def planned_work(row: dict[str, Any]) -> Work:
+    """As it is foretold, before the run has its Gaussians."""
+    return work_of(tuple(row["size"]), row["frames"], row["objects"], row["on"], config_of(row), row.get("window"))
 
 
 def non_negative(a: np.ndarray, b: np.ndarray, rounds: int = 3000) -> np.ndarray:
@@ -130,8 +135,7 @@ def left_out(clips: dict[str, list[dict[str, Any]]]) -> list[dict[str, Any]]:
         for row in rows:
             if row["kind"] not in ("preset", "size"):
                 continue
-            made = work_of(tuple(row["size"]), row["frames"], row["objects"], row["on"], config_of(row))
-            told = foretold(made, Difficulty(**row["difficulty"]), config_of(row), 1.0, model)
+            told = foretold(planned_work(row), Difficulty(**row["difficulty"]), config_of(row), 1.0, model)
             free = row["reason"] == "done" and not row["config"]["paced"]
             found.append({"clip": name, "run": row["title"], "seconds": row["cpu_seconds"], "told_s": told.seconds,
                           "psnr": seen_psnr(row), "told_db": told.decibel, "free": free, "steps": row["steps"],
