@@ -9,6 +9,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from genmojo_core.effects.texts import Said
+
 
 @dataclass(frozen=True)
 class Event:
@@ -62,11 +64,12 @@ class Preview(Event):
 
 @dataclass(frozen=True)
 class EffectChanged(Event):
-    """An effect was switched during the run, with the reason."""
+    """An effect was switched during the run, with the reason; `said`: the same by key (effects/texts.py)."""
 
     effect: str
     on: bool
     reason: str
+    said: tuple[Said, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -12,13 +12,15 @@ from PySide6.QtCore import QObject, QTimer
 
 _EVERY_MS = 250
 _OLDEST = 2  # generation
+MOST = 50_000  # objects that a collection may go through; it takes half a microsecond for each, and the window waits
 
 
 class Collector(QObject):
     """Collects by Python's own thresholds, from a timer of the thread that made it, instead of Python.
 
     What outlived a full collection is not gone through again until the next `sweep`: with hours of curves and pictures
-    in memory that would hold up the window.
+    in memory that would hold up the window. Nor are more than `MOST` objects that came at once: that is what a thread
+    leaves behind when it loads a library.
     """
 
     def __init__(self, parent: QObject) -> None:
@@ -34,9 +36,13 @@ class Collector(QObject):
         due = [
             g for g, (count, most) in enumerate(zip(gc.get_count(), gc.get_threshold(), strict=True)) if count > most
         ]
-        if due:
-            gc.collect(due[-1])
-        if due and due[-1] == _OLDEST:
+        if not due:
+            return
+        if sum(len(gc.get_objects(g)) for g in range(due[-1] + 1)) > MOST:
+            gc.freeze()
+            return
+        gc.collect(due[-1])
+        if due[-1] == _OLDEST:
             gc.freeze()
 
     def sweep(self) -> None:

@@ -45,9 +45,13 @@ def _show(parent: QWidget | None, title: str, text: str, details: str) -> None:
     box.setInformativeText(text)
     if details:
         box.setDetailedText(details)
-    box.exec()
+    _shown.add(box)  # one without a parent would go with this function
+    box.finished.connect(lambda: _shown.discard(box))
+    box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    box.open()
 
 
+_shown: set[QMessageBox] = set()
 show_dialog: Callable[[QWidget | None, str, str, str], None] = _show
 
 

@@ -60,6 +60,7 @@ class KeyEditor(QDialog):
         self.language = QComboBox()
         for code, name in {"": tr("As the system"), **LANGUAGES}.items():
             self.language.addItem(name, code)
+        self.language.setToolTip(tr("The language changes when the app starts again."))
         self.language.setCurrentIndex(max(self.language.findData(settings.text("language")), 0))
         self.line = QLineEdit(placeholderText=tr("Search"), clearButtonEnabled=True)
         self.list = _tree([tr("Command"), tr("Keys")])

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import importlib
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Protocol, cast
 
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent
-from PySide6.QtWidgets import QApplication, QFileDialog, QMainWindow, QStackedWidget, QWidget
+from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QMainWindow, QStackedWidget, QWidget
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
@@ -31,6 +32,10 @@ from genmojo_studio.worker import runs
 
 DEMO_CLIP = "crossing-shapes"
 _PRELOAD_MS = 100  # after the window came up
+_MODULES = {  # they pull in OpenGL, plots and readers that the start page does not need
+    "annotate": "genmojo_studio.annotate.workspace",
+    "watch": "genmojo_studio.watch.workspace",
+}
 
 
 class Workspace(Protocol):
@@ -67,6 +72,7 @@ class MainWindow(QMainWindow):
         self.watchdog = Watchdog(self)
         self.workspaces: dict[str, Workspace] = {}
         self._shown_clips: dict[str, Path | None] = {}
+        self._loaded: set[str] = set()
         self.workspace = ""
         self.setWindowTitle("GenMOJO Studio")
         self.setAcceptDrops(True)
@@ -82,7 +88,7 @@ class MainWindow(QMainWindow):
         self.menus = Menus(self, table)
         self.show_workspace("")
         self._preload = QTimer(self, interval=_PRELOAD_MS, singleShot=True)
-        self._preload.timeout.connect(lambda: self.tasks.run(_load_watch, _ask_for_opengl, notify.tell))
+        self._preload.timeout.connect(lambda: self._load("watch", _ask_for_opengl))
         geometry = settings.layout("window")
         if geometry is not None:
             self.restoreGeometry(geometry)
@@ -109,6 +115,29 @@ class MainWindow(QMainWindow):
             self._shown_clips[name] = path
             self.workspaces[name].open_clip(path)
 
+    def go_to(self, name: str, then: Callable[[], object] = lambda: None) -> None:
+        """As `show_workspace`, but loads on a thread what is not loaded yet; does something in it then."""
+
+        def shown() -> None:
+            self.header.say("")
+            self.show_workspace(name)
+            then()
+
+        if not name or name in self.workspaces or name in self._loaded:
+            shown()
+        else:
+            self.header.say(tr("Loading …"), busy=True)
+            self._load(name, shown)
+
+    def _load(self, name: str, then: Callable[[], object]) -> None:
+        """Imports what a workspace is made of on a thread, which lets the window answer meanwhile."""
+
+        def loaded(_: object) -> None:
+            self._loaded.add(name)
+            then()
+
+        self.tasks.run(lambda: importlib.import_module(_MODULES[name]), loaded, self._reading_failed)
+
     def open_path(self, path: Path) -> None:
         """Opens whatever lies there; faults are told in a dialog."""
         path = path.absolute()
@@ -121,18 +150,18 @@ class MainWindow(QMainWindow):
         if kind == "clip":
             self.read_clip(path, self.workspace or "watch")
         elif kind == "project":
-            self.show_workspace("annotate")
             self._shown_clips["annotate"] = path
-            self.workspaces["annotate"].open_clip(path)
+            self.go_to("annotate", lambda: self.workspaces["annotate"].open_clip(path))
         else:
-            self.show_workspace("watch")
-            cast(Any, self.workspaces["watch"]).open_path(path, kind)
+            self.go_to("watch", lambda: cast(Any, self.workspaces["watch"]).open_path(path, kind))
 
     def read_clip(self, path: Path, workspace: str) -> None:
         """Reads a clip on a thread and shows it in a workspace."""
         self.header.say(tr("Reading {name} …").format(name=path.name), busy=True)
         self.tasks.run(
-            lambda: _read_clip(path), lambda found: self._clip_read(found, path, workspace), self._reading_failed
+            lambda: _read_clip(path, workspace),
+            lambda found: self._clip_read(found, path, workspace),
+            self._reading_failed,
         )
 
     def open_demo(self) -> None:
@@ -175,7 +204,7 @@ class MainWindow(QMainWindow):
         self.welcome.folder_wanted.connect(self._ask_folder)
         self.welcome.file_wanted.connect(self._ask_file)
         self.welcome.path_wanted.connect(lambda path: self.open_path(Path(path)))
-        self.header.workspace_wanted.connect(self.show_workspace)
+        self.header.workspace_wanted.connect(self.go_to)
         self.header.palette_wanted.connect(self._show_palette)
         self.header.panels_wanted.connect(lambda: self.table.trigger("window.panels"))
         bind = self.table.bind
@@ -183,19 +212,19 @@ class MainWindow(QMainWindow):
         bind("file.open", self._ask_file)
         bind("file.demo", self.open_demo)
         bind("file.close", lambda: self.show_workspace(""))
-        bind("file.settings", lambda: KeyEditor(self.table, self.settings, self).exec())
+        bind("file.settings", lambda: self._open_dialog(KeyEditor(self.table, self.settings, self)))
         bind("file.quit", self.close)
-        bind("window.annotate", lambda: self.show_workspace("annotate"))
-        bind("window.watch", lambda: self.show_workspace("watch"))
+        bind("window.annotate", lambda: self.go_to("annotate"))
+        bind("window.watch", lambda: self.go_to("watch"))
         bind("window.theme", self._switch_theme, checked=lambda: self.state.theme == "light")
         bind("window.full_screen", self._switch_full_screen, checked=self.isFullScreen)
         bind("window.panels", self._switch_panels, lambda: bool(self.workspace), self._panels_hidden)
         bind("window.reset", self._reset_layout, lambda: bool(self.workspace))
         bind("help.palette", self._show_palette)
-        bind("help.keys", lambda: KeySheet(self.table, self.workspace, self).exec())
-        bind("help.selftest", lambda: SelftestDialog(self).exec())
+        bind("help.keys", lambda: self._open_dialog(KeySheet(self.table, self.workspace, self), beside=True))
+        bind("help.selftest", lambda: self._open_dialog(SelftestDialog(self)))
         bind("help.crash", self._show_crashes, lambda: bool(notify.crash_reports(data_folder() / "crashes")))
-        bind("help.about", lambda: About(self).exec())
+        bind("help.about", lambda: self._open_dialog(About(self)))
         self.state.subscribe(self._show_title, "clip", "clip_path", "scene_path")
 
     def _clip_read(self, found: tuple[Clip, Path | None], path: Path, workspace: str) -> None:
@@ -225,9 +254,13 @@ class MainWindow(QMainWindow):
         palette = Palette(self.table, self.workspace, self)
         corner = self.mapToGlobal(self.rect().topLeft())
         palette.move(corner.x() + (self.width() - palette.width()) // 2, corner.y() + 70)
-        palette.exec()
-        if palette.chosen:
-            self.table.trigger(palette.chosen)
+        palette.accepted.connect(lambda: self.table.trigger(palette.chosen))
+        self._open_dialog(palette)
+
+    def _open_dialog(self, dialog: QDialog, *, beside: bool = False) -> None:
+        """Shows a dialog and goes on; `beside` leaves the window usable meanwhile."""
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.show() if beside else dialog.open()
 
     def _switch_theme(self) -> None:
         self.state.set(theme="dark" if self.state.theme == "light" else "light")
@@ -264,7 +297,7 @@ class MainWindow(QMainWindow):
 
 
 def _make_workspace(name: str, state: AppState, table: ActionTable) -> Workspace:
-    """Imported when first shown: they pull in OpenGL, plots and readers that the start page does not need."""
+    """Imported when first shown (_MODULES)."""
     if name == "annotate":
         from genmojo_studio.annotate.workspace import AnnotateWorkspace
 
@@ -274,23 +307,21 @@ def _make_workspace(name: str, state: AppState, table: ActionTable) -> Workspace
     return WatchWorkspace(state, table)
 
 
-def _load_watch() -> None:
-    """Imports what the workspace Watch is made of; on a thread, which lets the window answer meanwhile."""
-    importlib.import_module("genmojo_studio.watch.workspace")
-
-
-def _ask_for_opengl(_: object) -> None:
+def _ask_for_opengl() -> None:
     """Making a first OpenGL context loads the driver; the answer is kept."""
     importlib.import_module("genmojo_studio.view3d.gl_probe").probe()
 
 
-def _read_clip(path: Path) -> tuple[Clip, Path | None]:
-    """The clip, with the masks that a person corrected in its project and where they lie, if there are any."""
+def _read_clip(path: Path, workspace: str) -> tuple[Clip, Path | None]:
+    """The clip, with the masks that a person corrected in its project and where they lie, if there are any.
+
+    The workspace that will show it is loaded too.
+    """
     from genmojo_core.clip import folders, mask_file
     from genmojo_studio.annotate import hand_masks
     from genmojo_studio.annotate.session import project_path
 
-    _load_watch()
+    importlib.import_module(_MODULES[workspace])
     clip = folders.read(path, short_side=opening.SHARED_SHORT_SIDE)
     masks = project_path(path).with_suffix(hand_masks.SUFFIX)
     return (mask_file.with_masks(clip, masks), masks) if masks.exists() else (clip, None)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from genmojo_core.effects.texts import Said
+from genmojo_core.effects.texts import Said, sentence
 
 EffectName = Literal[
     "joint_occlusion", "background", "camera_motion", "non_rigid_motion", "appearance_change", "shading",
@@ -23,8 +23,7 @@ class Effect:
         evidence, unit: the number measured on the clip. threshold: it is on at or above this.
         origin: where the threshold comes from. reason: one plain sentence.
         ms_per_step, mb: predicted cost when on. overridden: the user decided, not the evidence.
-        said, origin_said: reason and origin as keys and values (texts.py), for other languages; empty where a run
-        changed its mind and only `reason` tells why.
+        said, origin_said: reason and origin as keys and values (texts.py), for other languages.
         settings: numbers that go with it, e.g. {"motion_bases": 6}.
         measured_ms, measured_mb: what it did cost per step and in memory, once a run has measured it.
     """
@@ -68,6 +67,10 @@ class EffectPlan:
         changes = {"said": (), **changes} if "reason" in changes else changes
         new = replace(self.get(name), **changes)
         return EffectPlan(tuple(new if effect.name == name else effect for effect in self.effects))
+
+    def decided(self, name: EffectName, on: bool, said: Said) -> EffectPlan:
+        """The plan with another decision about one effect, and why; KeyError for a name that is none."""
+        return self.changed(name, on=on, reason=sentence([said]), said=(said,))
 
     def to_json(self) -> list[dict[str, Any]]:
         """Plain data, as `genmojo effects --json` prints it."""

@@ -1,4 +1,4 @@
-"""What the effect plan says, by key: English here, other languages where the app translates the same texts.
+"""What the effect plan and a run that changes it say, by key: English here, other languages where the app translates.
 
 A `Said` is a key and its values; values called `source` are keys themselves. `sentence` puts them into words.
 """
@@ -40,6 +40,15 @@ TEXTS: dict[str, str] = {
     "never_hidden": "No object is hidden and comes back.",
     "hidden_once": "An object is hidden for 1 frame and comes back.",
     "hidden": "An object is hidden for up to {count} frames and comes back.",
+    "leaves_rigid": "'{name}' leaves its rigid motion by {percent:.0f} % of its size: non-rigid motion was called in.",
+    "light_called_in": "Frames differ from the scene by up to {percent:.0f} % brightness: changing light was called "
+    "in.",
+    "light_before": "Changing light was called in before the run was interrupted.",
+    "no_shading": "Where surfaces face explains {percent:.0f} % of how their brightness changes: no shading.",
+    "left_out_before": "Left out before the run was interrupted.",
+    "prior_no_numbers": "What the prior says was no usable number {times} times in a row: it is switched off.",
+    "prior_harms": "Held-out pixels have {psnr:.2f} dB with the Gaussians the prior invented and {without:.2f} dB "
+    "without: it is switched off.",
     "origin_contact": "one frame of contact is enough to hide",
     "origin_background": "less than a twentieth is left to the objects' edges",
     "origin_camera": "half a pixel cannot be seen",

@@ -18,6 +18,7 @@ from torch import Tensor
 from genmojo_core.clip.clip import Clip
 from genmojo_core.effects.decide import with_bases
 from genmojo_core.effects.plan import EffectName, EffectPlan
+from genmojo_core.effects.texts import Said
 from genmojo_core.events import EffectChanged, Event
 from genmojo_core.optimise import density
 from genmojo_core.optimise.motion import ObjectMotion
@@ -42,19 +43,24 @@ def may(plan: EffectPlan, name: EffectName) -> bool:
     return not effect.on and not effect.overridden
 
 
-def bending(clip: Clip, plan: EffectPlan, motions: Sequence[ObjectMotion], most_bases: int) -> tuple[EffectPlan, str]:
-    """The plan with non-rigid motion on and the reason, if the initial motion bends an object; else as it was, ""."""
+def changed(run: Run, name: EffectName) -> EffectChanged:
+    """The event that tells what the plan of a run says of an effect now."""
+    effect = run.plan.get(name)
+    return EffectChanged(*run.clock.now(), name, effect.on, effect.reason, effect.said)
+
+
+def bending(clip: Clip, plan: EffectPlan, motions: Sequence[ObjectMotion], most_bases: int) -> EffectPlan:
+    """The plan with non-rigid motion on and the reason, if the initial motion bends an object; else as it was."""
     if not may(plan, "non_rigid_motion"):
-        return plan, ""
+        return plan
     for k, motion in enumerate(motions):
         share = bent_share(clip, k, motion)
         if share >= BENDS:
-            said = (f"'{clip.object_names[k]}' leaves its rigid motion by {100 * share:.0f} % of its size: "
-                    "non-rigid motion was called in")  # fmt: skip
-            plan = plan.changed("non_rigid_motion", on=True, reason=said + ".")
+            said = ("leaves_rigid", {"name": clip.object_names[k], "percent": 100 * share})
+            plan = plan.decided("non_rigid_motion", True, said)
             effect = with_bases(plan.get("non_rigid_motion"), most_bases, share / BENDS)
-            return plan.changed("non_rigid_motion", settings=effect.settings), said
-    return plan, ""
+            return plan.changed("non_rigid_motion", settings=effect.settings)
+    return plan
 
 
 def bent_share(clip: Clip, k: int, motion: ObjectMotion) -> float:
@@ -105,12 +111,10 @@ class LightWatch:
         columns = [np.interp(frames, self.known, known[:, c]) for c in range(3)]
         return torch.exp(torch.tensor(np.stack(columns, axis=1), dtype=torch.float32))
 
-    def called_for(self) -> str:
-        """Why light must be simulated; empty while it need not be."""
+    def called_for(self) -> Said | None:
+        """Why light must be simulated; None while it need not be."""
         change = self.change()
-        if change < LIGHT:
-            return ""
-        return f"frames differ from the scene by up to {100 * change:.0f} % brightness: changing light was called in"
+        return None if change < LIGHT else ("light_called_in", {"percent": 100 * change})
 
 
 def light_watch(run: Run) -> LightWatch | None:
@@ -120,30 +124,30 @@ def light_watch(run: Run) -> LightWatch | None:
 
 def change_effects(run: Run, stage: Stage, outcome: Outcome) -> Iterator[Event]:
     """After a step: a prior that does harm is switched off with its Gaussians; light is called in where frames ask."""
-    reason = ""
+    said: Said | None = None
     if run.unseen is not None and stage.deform:
-        reason = run.unseen.objection(run.objective, run.progress.fraction(run.clock))
-    if reason:
+        said = run.unseen.objection(run.objective, run.progress.fraction(run.clock))
+    if said is not None:
         run.unseen = None
         for gaussians, _ in run.statistics:
             density.keep_only(gaussians, ~gaussians.invented, run.optimiser)
         run.after_change()
-        run.plan = run.plan.changed("unseen_views", on=False, reason=f"{reason}.")
-        yield EffectChanged(*run.clock.now(), "unseen_views", False, reason)
+        run.plan = run.plan.decided("unseen_views", False, said)
+        yield changed(run, "unseen_views")
     if run.watch is None:
         return
     run.watch.hear(outcome.light)
-    reason = run.watch.called_for()
-    if reason:
-        gain = simulate_light(run, reason, run.watch.gains())
+    said = run.watch.called_for()
+    if said is not None:
+        gain = simulate_light(run, said, run.watch.gains())
         run.optimiser.add_param_group(group_of("log_gain", [gain.log_gain], run.config))
         run.guard.snapshot()
-        yield EffectChanged(*run.clock.now(), "appearance_change", True, reason)
+        yield changed(run, "appearance_change")
 
 
-def simulate_light(run: Run, reason: str, start: Tensor | None = None) -> FrameGain:
+def simulate_light(run: Run, said: Said, start: Tensor | None = None) -> FrameGain:
     """One gain per frame of a run from here on, starting at measured gains (T, 3) or ones."""
     gain = FrameGain(len(run.clip), start)
     run.scene.gain, run.watch, run.light_called_in = gain, None, True
-    run.plan = run.plan.changed("appearance_change", on=True, reason=f"{reason}.")
+    run.plan = run.plan.decided("appearance_change", True, said)
     return gain

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import torch
+from safetensors import SafetensorError, safe_open
 from safetensors.torch import load as load_tensors
 from safetensors.torch import save as save_tensors
 from torch import Tensor
@@ -90,12 +91,19 @@ def load(folder: Path, scene: Scene4D, optimiser: torch.optim.Optimizer) -> tupl
 
 def peek(folder: Path) -> dict[str, Any]:
     """The saved `meta` alone. Raises as `load`."""
-    return dict(_read(folder)[0]["meta"])
+    return dict(_header(folder)["meta"])
 
 
 def holds(folder: Path, name: str) -> bool:
-    """True if the checkpoint has the scene's parameter of that name. Raises as `load`."""
-    return f"scene/{name}" in _read(folder)[1]
+    """True if the checkpoint has the scene's parameter of that name; reads no tensors. Raises as `load`."""
+    try:
+        with safe_open(_tensors(folder, _header(folder)), "pt") as tensors:
+            return f"scene/{name}" in tensors.keys()  # noqa: SIM118 - it is no mapping
+    except OSError as error:
+        raise _missing(folder) from error
+    except SafetensorError as error:
+        raise GenmojoError("corrupt", "the checkpoint's tensors cannot be read", str(folder),
+                           "start without --resume") from error  # fmt: skip
 
 
 def exists(folder: Path) -> bool:
@@ -105,23 +113,41 @@ def exists(folder: Path) -> bool:
 
 def _read(folder: Path) -> tuple[dict[str, Any], dict[str, Tensor]]:
     """The JSON and the verified tensors."""
-    path = folder / "checkpoint.json"
+    header = _header(folder)
     try:
-        header = json.loads(path.read_bytes())
-        if header["format"] > FORMAT:
-            raise GenmojoError("version", f"checkpoint format {header['format']} is newer than {FORMAT}", str(path),
-                               "update GenMOJO Studio")  # fmt: skip
-        data = (folder / Path(header["tensors"]).name).read_bytes()
+        data = _tensors(folder, header).read_bytes()
     except OSError as error:
-        raise GenmojoError("io", "there is no checkpoint to resume from", str(folder),
-                           "start without --resume") from error  # fmt: skip
-    except (ValueError, KeyError, TypeError) as error:
-        raise GenmojoError("corrupt", "the checkpoint's JSON cannot be read", str(path),
-                           "start without --resume") from error  # fmt: skip
+        raise _missing(folder) from error
     if hashlib.sha256(data).hexdigest() != header["sha256"]:
         raise GenmojoError("corrupt", "the checkpoint's tensors do not match their checksum", str(folder),
                            "start without --resume")  # fmt: skip
     return header, load_tensors(data)
+
+
+def _header(folder: Path) -> dict[str, Any]:
+    """The JSON, of a format that we know."""
+    path = folder / "checkpoint.json"
+    try:
+        header = dict(json.loads(path.read_bytes()))
+        if header["format"] > FORMAT:
+            raise GenmojoError("version", f"checkpoint format {header['format']} is newer than {FORMAT}", str(path),
+                               "update GenMOJO Studio")  # fmt: skip
+        _tensors(folder, header)
+    except OSError as error:
+        raise _missing(folder) from error
+    except (ValueError, KeyError, TypeError) as error:
+        raise GenmojoError("corrupt", "the checkpoint's JSON cannot be read", str(path),
+                           "start without --resume") from error  # fmt: skip
+    return header
+
+
+def _tensors(folder: Path, header: Mapping[str, Any]) -> Path:
+    """The tensors' file."""
+    return folder / Path(header["tensors"]).name
+
+
+def _missing(folder: Path) -> GenmojoError:
+    return GenmojoError("io", "there is no checkpoint to resume from", str(folder), "start without --resume")
 
 
 def _put(owner: torch.nn.Module, leaf: str, value: Tensor, optimiser: torch.optim.Optimizer) -> None:

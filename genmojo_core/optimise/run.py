@@ -23,7 +23,6 @@ from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.errors import GenmojoError
 from genmojo_core.events import (
     Checkpointed,
-    EffectChanged,
     Event,
     Failed,
     Finished,
@@ -71,7 +70,7 @@ PREVIEW_EVERY = 25  # steps
 MOTION_SHARE = 0.4  # of the budget
 PACE_EVERY = 5  # steps
 CURVE = "curve.jsonl"  # in the run folder: the curve, a row a line
-COST_STEP = 40  # steps of the joint stage after which the effects' costs are measured; shorter stages measure none
+COST_STEP = 40  # steps of the joint stage after which effects' costs are measured, or a step later when resumed
 
 
 class Run:
@@ -227,9 +226,9 @@ class Run:
         for message in doubts:
             yield Warned(*self.clock.now(), "motion_not_found", message)
         motions = with_annotated(self.clip, out_of_view(self.clip, motions))
-        self.plan, reason = call_in.bending(self.clip, self.plan, motions, self.config.motion_bases)
-        if reason:
-            yield EffectChanged(*self.clock.now(), "non_rigid_motion", True, reason)
+        planned, self.plan = self.plan, call_in.bending(self.clip, self.plan, motions, self.config.motion_bases)
+        if self.plan is not planned:
+            yield call_in.changed(self, "non_rigid_motion")
         lifted = lift(self.clip, self.plan, self.config, motions)
         for message in lifted.warnings:
             yield Warned(*self.clock.now(), "object_not_visible", message)
@@ -285,7 +284,7 @@ class Run:
         """Optimiser and guard, and the checkpoint if there is one to resume."""
         self.watch = call_in.light_watch(self)
         if self.resume and self.run_dir is not None and checkpoint.peek(self.run_dir).get("light_called_in"):
-            call_in.simulate_light(self, "changing light was called in before the run was interrupted")
+            call_in.simulate_light(self, ("light_before", {}))
         self.optimiser = make_optimiser(self.scene, self.config)
         if self.resume and self.run_dir is not None:
             meta, state = checkpoint.load(self.run_dir, self.scene, self.optimiser)
@@ -325,7 +324,7 @@ class Run:
                 self.add_point()
             yield self.progress.event(self.clock, len(self.scene))
             yield from call_in.change_effects(self, stage, outcome)
-            if stage.deform and i == COST_STEP:
+            if stage.deform and i == max(COST_STEP, start + 1):
                 frames = list(range(min(self.config.frames_per_step, len(self.clip))))
                 self.plan = with_costs(self.plan, self.objective, frames)
             if i % self.config.densify_every == 0 and i < 0.8 * stage.steps:

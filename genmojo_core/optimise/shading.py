@@ -14,8 +14,9 @@ import torch
 from torch import Tensor
 
 from genmojo_core.effects.plan import EffectPlan
-from genmojo_core.events import EffectChanged, Event
+from genmojo_core.events import Event
 from genmojo_core.optimise import checkpoint
+from genmojo_core.optimise.call_in import changed
 from genmojo_core.optimise.targets import Targets
 from genmojo_core.scene import safemath
 from genmojo_core.scene.scene4d import ObjectModel, ObjectState, Scene4D
@@ -38,13 +39,12 @@ def start_shading(run: Run) -> Iterator[Event]:
         if checkpoint.holds(run.run_dir, "shade.shade"):
             run.scene.shade = Shade()
         else:
-            run.plan = run.plan.changed("shading", on=False, reason="Left out before the run was interrupted.")
+            run.plan = run.plan.decided("shading", False, ("left_out_before", {}))
         return
     start, share = measured(run.scene, run.targets)
     if share < LEAST and not run.plan.get("shading").overridden:
-        reason = f"where surfaces face explains {100 * share:.0f} % of how their brightness changes: no shading"
-        run.plan = run.plan.changed("shading", on=False, reason=f"{reason}.")
-        yield EffectChanged(*run.clock.now(), "shading", False, reason)
+        run.plan = run.plan.decided("shading", False, ("no_shading", {"percent": 100 * share}))
+        yield changed(run, "shading")
         return
     run.scene.shade = Shade(start)
 

@@ -21,6 +21,7 @@ from genmojo_core.clip.cameras import View
 from genmojo_core.clip.clip import Clip
 from genmojo_core.config import RunConfig
 from genmojo_core.conventions import SH_C0, matrix_to_quaternion
+from genmojo_core.effects.texts import Said
 from genmojo_core.optimise.first_poses import Moves
 from genmojo_core.optimise.lift import Lifted
 from genmojo_core.optimise.objective import Objective, Outcome
@@ -135,17 +136,17 @@ class UnseenViews:
         told, self._news = self._news, []
         return told
 
-    def objection(self, objective: Objective, share: float) -> str:
-        """Why the prior must be switched off: it gives no numbers, or held-out pixels are better without; or "".
+    def objection(self, objective: Objective, share: float) -> Said | None:
+        """Why the prior must be switched off: it gives no numbers, or held-out pixels are better without; or None.
 
         The same scene is drawn with and without the invented Gaussians, at the shares COMPARED of the run, when all
         frames take part. Costs two renderings of every frame.
         """
         if self.useless >= USELESS:
-            return f"what the prior says was no usable number {USELESS} times in a row: it is switched off"
+            return "prior_no_numbers", {"times": USELESS}
         due = next((at for at in COMPARED if share >= at and at not in self.asked), None)
         if due is None or not self.completed:
-            return ""
+            return None
         self.asked.add(due)
         with_it = held_out_psnr(objective)
         sets = [model.gaussians for model in self.scene.objects]
@@ -156,10 +157,7 @@ class UnseenViews:
             without = held_out_psnr(objective)
             for g, logits in zip(sets, kept, strict=True):
                 g.logit_opacities.copy_(logits)
-        if without < with_it + WORSE:
-            return ""
-        return (f"held-out pixels have {with_it:.2f} dB with the Gaussians the prior invented and {without:.2f} dB "
-                "without: it is switched off")  # fmt: skip
+        return None if without < with_it + WORSE else ("prior_harms", {"psnr": with_it, "without": without})
 
     def mode(self) -> Mode:
         """How the prior is followed: as configured; by itself the embedded one as pseudo-views, others by sds."""

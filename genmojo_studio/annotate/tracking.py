@@ -130,7 +130,7 @@ class Tracking(QObject):
         session.do(keys.accept(session.annotation, there, TRACKER))
         self._stale |= {session.annotation.tracks[t].object for t in there}
         self._look.start()
-        self.seeded.emit(len(there))
+        self._tell_seeded(len(there))
 
     def _progress(self, done: int, count: int) -> Callable[[float], None]:
         """Tells the share of the whole of one object's progress."""
@@ -153,6 +153,12 @@ class Tracking(QObject):
             self._session.do(join("seed", tr("Seed {n} tracks").format(n=count), made))
         self._stale |= {answer.request.object_id for answer in answers}
         self._look.start()
+        self._tell_seeded(count)
+
+    def _tell_seeded(self, count: int) -> None:
+        """What the status line said before, that seeding comes next, is over."""
+        if count:
+            self._session.said.emit(tr("{n} tracks are seeded.").format(n=count))
         self.seeded.emit(count)
 
     def after_key(self, track: int, frame: int, step: int | None) -> None:

@@ -10,6 +10,7 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
+from genmojo_core.effects.texts import sentence
 from genmojo_core.optimise import gain
 from genmojo_studio.state import AppState
 from genmojo_studio.theme import SERIES, colours
@@ -166,7 +167,7 @@ class Curves(QWidget):
             label = mark.text if mark.kind == "stage" else None
             options = {"position": 0.08, "color": table.dim, "rotateAxis": (1, 0), "anchors": [(0, 0), (0, 1)]}
             line = pg.InfiniteLine(mark.seconds, angle=90, pen=pen, label=label, labelOpts=options)
-            line.setToolTip(mark.text)
+            line.setToolTip(sentence(mark.said, tr) or mark.text)
             self.plot.addItem(line, ignoreBounds=True)
             self._mark_items.append(line)
 

@@ -83,6 +83,15 @@ class EffectsTable(QTreeWidget):
             self.addTopLevelItem(_item(row))
         self.blockSignals(False)
 
+    def show_costs(self, known: Mapping[str, Mapping[str, Any]]) -> None:
+        """Effects have been measured since: `machine.known_costs()`; boxes stay as they are ticked."""
+        rows = [{**row, "known": known.get(str(row["name"]))} for row in self.rows]
+        ticked = [self._ticked_at(i) for i in range(len(rows))]
+        self.show_rows(rows)
+        for item, on in zip(map(self.topLevelItem, range(len(rows))), ticked, strict=True):
+            if item is not None:
+                item.setCheckState(0, Qt.CheckState.Checked if on else Qt.CheckState.Unchecked)
+
     def chosen(self) -> list[dict[str, Any]]:
         """The rows with `on` as the boxes say."""
         return [{**row, "on": self._ticked_at(i)} for i, row in enumerate(self.rows)]

@@ -11,14 +11,20 @@ from typing import Any
 
 import numpy as np
 
+from genmojo_core.effects.texts import Said
+
 
 @dataclass(frozen=True)
 class Mark:
-    """Something that happened at a moment of the run: a stage, a checkpoint, an effect, a warning."""
+    """Something that happened at a moment of the run: a stage, a checkpoint, an effect, a warning.
+
+    `said`: of an effect, why it was switched, by key (effects/texts.py); `text` has the same in English.
+    """
 
     seconds: float
     kind: str
     text: str
+    said: tuple[Said, ...] = ()
 
 
 @dataclass
@@ -68,7 +74,8 @@ class RunLog:
             self.stages.append(StageTime(str(event["stage"]), int(event["steps"]), at))
             self.marks.append(Mark(at, "stage", str(event["stage"])))
         elif kind == "EffectChanged":
-            self.marks.append(Mark(at, "effect", f"{event['effect']} {'+' if event['on'] else '−'}: {event['reason']}"))
+            said = tuple((str(key), values) for key, values in event.get("said") or ())
+            self.marks.append(Mark(at, "effect", str(event["reason"]), said))
         elif kind == "ParameterChanged":
             self.marks.append(Mark(at, "parameter", f"{event['name']}: {event['old']:g} → {event['new']:g}"))
         elif kind == "Checkpointed":

@@ -15,6 +15,7 @@ from genmojo_core.effects.auto import AUTO_SECONDS, for_budget
 from genmojo_core.effects.costs import run_sizes
 from genmojo_core.effects.difficulty import Difficulty
 from genmojo_core.effects.forecast import Forecast, foretold, work_of
+from genmojo_core.effects.machine import known_costs
 from genmojo_studio.state import AppState
 from genmojo_studio.translate import tr
 from genmojo_studio.watch import forecast
@@ -124,7 +125,8 @@ class RunSetup(QWidget):
         )
 
     def came(self, log: RunLog) -> None:
-        """A run has ended: what was expected of it beside what came; nothing where nothing was expected."""
+        """A run has ended: its effects' costs, and what was expected of it beside what came, if anything was."""
+        self.effects.show_costs(known_costs())
         if self._asked is None or not log.accuracy:
             return
         self._came = tr(

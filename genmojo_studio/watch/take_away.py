@@ -80,10 +80,15 @@ class TakeAway(QObject):
     def turntable(self) -> None:
         """The scene turned once round, as a video or pictures."""
         dialog = TurntableDialog(self._view.orbit.elevation, self._window)
-        if dialog.exec():
+
+        def accepted() -> None:
             output = self._ask_film(dialog.transparent.isChecked(), "turntable")
             if output:
                 self.export(dialog.request(self._source, output, self._state.frame))
+
+        dialog.accepted.connect(accepted)
+        dialog.finished.connect(dialog.deleteLater)
+        dialog.open()
 
     def camera_path(self) -> None:
         """The editor of camera paths, which stays open beside the window."""
@@ -96,10 +101,15 @@ class TakeAway(QObject):
     def screenshot(self) -> None:
         """The view as it is, at any size."""
         dialog = PictureDialog((self._view.width(), self._view.height()), self._window)
-        if dialog.exec():
+
+        def accepted() -> None:
             output = self._ask(tr("Save the picture"), "view.png", "PNG (*.png)")
             if output:
                 self.save_picture(output, dialog.size_wanted(), dialog.transparent.isChecked())
+
+        dialog.accepted.connect(accepted)
+        dialog.finished.connect(dialog.deleteLater)
+        dialog.open()
 
     def save_picture(self, output: str, size: tuple[int, int], transparent: bool) -> None:
         """Writes the view at a size (width, height), and beside it a JSON file that says where it looks from."""

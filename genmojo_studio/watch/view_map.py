@@ -6,7 +6,18 @@ from dataclasses import replace
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QFocusEvent, QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap
+from PySide6.QtGui import (
+    QColor,
+    QFocusEvent,
+    QImage,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPixmap,
+    QPolygonF,
+)
 from PySide6.QtWidgets import QWidget
 
 from genmojo_studio.state import AppState
@@ -19,6 +30,7 @@ _CELL = 5  # degrees of one cell of the map
 _FAR = 90.0  # degrees from any supervised view, from where it gets no darker
 _STEP = 5.0  # degrees that an arrow key turns
 _KEYS = {Qt.Key.Key_Left: (0, -1), Qt.Key.Key_Right: (0, 1), Qt.Key.Key_Up: (1, 0), Qt.Key.Key_Down: (-1, 0)}
+_SPOT = 2.0  # pixels between points that are drawn
 _AXIS = 14  # pixels of the rim with the numbers
 
 
@@ -149,10 +161,10 @@ class ViewMap(QWidget):
             painter = QPainter(drawn)
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             painter.drawImage(field, self._image())
-            painter.setPen(Qt.PenStyle.NoPen)
-            painter.setBrush(QColor(colours(self._state.theme).text))
-            for elevation, azimuth in np.unique(np.round(self._supervised[:, :2]), axis=0):
-                painter.drawEllipse(_place(field, float(elevation), float(azimuth)), 1.5, 1.5)
+            pen = QPen(QColor(colours(self._state.theme).text), 3)
+            pen.setCapStyle(Qt.PenCapStyle.RoundCap)
+            painter.setPen(pen)
+            painter.drawPoints(_spots(field, self._supervised))
             painter.end()
             self._picture = (key, drawn)
         return self._picture[1]
@@ -185,6 +197,16 @@ def _place(field: QRectF, elevation: float, azimuth: float) -> QPointF:
         field.left() + (azimuth + 180.0) / 360.0 * field.width(),
         field.top() + (90.0 - elevation) / 180.0 * field.height(),
     )
+
+
+def _spots(field: QRectF, supervised: np.ndarray) -> QPolygonF:
+    """A point per supervised direction; of those that would lie on each other, within `_SPOT` pixels, one."""
+    elevation, azimuth = np.asarray(supervised, np.float64).reshape(-1, 3)[:, :2].T
+    across = field.left() + (azimuth + 180.0) / 360.0 * field.width()
+    down = field.top() + (90.0 - elevation) / 180.0 * field.height()
+    cell = np.round(down / _SPOT) * (field.width() + 2) + np.round(across / _SPOT)
+    _, first = np.unique(cell, return_index=True)
+    return QPolygonF([QPointF(x, y) for x, y in zip(across[first].tolist(), down[first].tolist(), strict=True)])
 
 
 def _rgb(colour: str) -> np.ndarray:

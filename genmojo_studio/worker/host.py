@@ -120,6 +120,7 @@ class Optimise:
     def run(self, host: Host) -> None:
         """Prepare, optimise, write. Raises GenmojoError for what is wrong with the input."""
         from genmojo_core.config import preset
+        from genmojo_core.measure import effect_costs
         from genmojo_core.store import scene_hdf5
         from genmojo_studio.worker import preparing
         from genmojo_studio.worker.first_cloud import first_cloud
@@ -142,6 +143,7 @@ class Optimise:
                                               "guesses": list(clip.guesses), "config": config.to_json()}})  # fmt: skip
         run = preparing.build(clip, plan, config, request)
         drive(host, run)
+        effect_costs.keep_run(clip.name, run.run.plan)
         if session.keep and hasattr(run.run, "scene"):
             session.enter("finishing")
             host.announce("writing", "writing the scene", 120.0)

@@ -1424,6 +1424,10 @@
       <translation>Das Objekt ist nicht in beiden Bildern zu sehen; der Punkt bleibt, wo er ist.</translation>
     </message>
     <message>
+      <source>{n} tracks are seeded.</source>
+      <translation>{n} Spuren haben nun einen Vorschlag.</translation>
+    </message>
+    <message>
       <source>Seed {n} tracks</source>
       <translation>{n} Spuren vorschlagen</translation>
     </message>
@@ -1604,16 +1608,16 @@
       <translation>Tasten und Einstellungen</translation>
     </message>
     <message>
+      <source>The language changes when the app starts again.</source>
+      <translation>Die Sprache wechselt beim nächsten Start der App.</translation>
+    </message>
+    <message>
       <source>Set</source>
       <translation>Setzen</translation>
     </message>
     <message>
       <source>As delivered</source>
       <translation>Wie geliefert</translation>
-    </message>
-    <message>
-      <source>The language changes when the app starts again.</source>
-      <translation>Die Sprache wechselt beim nächsten Start der App.</translation>
     </message>
     <message>
       <source>Other</source>
@@ -2644,6 +2648,10 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Reports of earlier crashes</source>
       <translation>Berichte früherer Abstürze</translation>
+    </message>
+    <message>
+      <source>Loading …</source>
+      <translation>Wird geladen …</translation>
     </message>
     <message>
       <source>Opens a folder of images or a clip.</source>
@@ -3812,6 +3820,34 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>An object is hidden for up to {count} frames and comes back.</source>
       <translation>Ein Objekt ist bis zu {count} Bilder lang verdeckt und kommt wieder.</translation>
+    </message>
+    <message>
+      <source>'{name}' leaves its rigid motion by {percent:.0f} % of its size: non-rigid motion was called in.</source>
+      <translation>„{name}“ verlässt seine starre Bewegung um {percent:.0f} % seiner Größe: nicht-starre Bewegung wurde hinzugenommen.</translation>
+    </message>
+    <message>
+      <source>Frames differ from the scene by up to {percent:.0f} % brightness: changing light was called in.</source>
+      <translation>Bilder weichen um bis zu {percent:.0f} % Helligkeit von der Szene ab: wechselndes Licht wurde hinzugenommen.</translation>
+    </message>
+    <message>
+      <source>Changing light was called in before the run was interrupted.</source>
+      <translation>Wechselndes Licht wurde hinzugenommen, bevor der Lauf unterbrochen wurde.</translation>
+    </message>
+    <message>
+      <source>Where surfaces face explains {percent:.0f} % of how their brightness changes: no shading.</source>
+      <translation>Wohin Flächen zeigen, erklärt {percent:.0f} % ihrer Helligkeitsänderung: keine Schattierung.</translation>
+    </message>
+    <message>
+      <source>Left out before the run was interrupted.</source>
+      <translation>Weggelassen, bevor der Lauf unterbrochen wurde.</translation>
+    </message>
+    <message>
+      <source>What the prior says was no usable number {times} times in a row: it is switched off.</source>
+      <translation>Was der Prior sagt, war {times}-mal hintereinander keine brauchbare Zahl: er ist abgeschaltet.</translation>
+    </message>
+    <message>
+      <source>Held-out pixels have {psnr:.2f} dB with the Gaussians the prior invented and {without:.2f} dB without: it is switched off.</source>
+      <translation>Zurückgehaltene Pixel haben {psnr:.2f} dB mit den Gaußglocken, die der Prior erfand, und {without:.2f} dB ohne sie: er ist abgeschaltet.</translation>
     </message>
     <message>
       <source>one frame of contact is enough to hide</source>

@@ -34,6 +34,8 @@ def test_reasons_are_their_keys_in_words_and_survive_json() -> None:
 def test_a_run_that_changes_its_mind_says_so_in_its_own_words() -> None:
     changed = plan(two_apart(), CONFIG).changed("shading", on=True, reason="Seen.").get("shading")
     assert changed.reason == "Seen." and changed.said == () and changed.origin_said
+    decided = plan(two_apart(), CONFIG).decided("shading", False, ("no_shading", {"percent": 3.2})).get("shading")
+    assert not decided.on and decided.reason == sentence(decided.said) and "explains 3 %" in decided.reason
 
 
 @pytest.mark.parametrize("path", sorted(TRANSLATIONS.glob("*.ts")), ids=lambda path: path.stem)

@@ -16,6 +16,7 @@ import torch
 from genmojo_core.clip.clip import Clip
 from genmojo_core.clip.synthetic import generate
 from genmojo_core.clip.synthetic_specs import CYLINDER, spec
+from genmojo_core.effects.texts import sentence
 from genmojo_core.estimate.complete import complete
 from genmojo_core.events import EffectChanged, Event, Finished, Step
 from genmojo_core.optimise import run as run_module
@@ -115,7 +116,7 @@ def test_still_light_is_not_called_in_by_noise() -> None:
     for _ in range(5):
         shown = torch.rand(3) * 0.4 + 0.3
         watch.hear([(t, shown, shown * (1 + float(rng.normal()) * 0.01)) for t in range(4)])
-    assert watch.called_for() == ""
+    assert watch.called_for() is None
     for _ in range(9):
         watch.hear([(3, shown, shown * 0.8)])
-    assert watch.change() == pytest.approx(0.2, abs=0.03) and "brightness" in watch.called_for()
+    assert watch.change() == pytest.approx(0.2, abs=0.03) and "brightness" in sentence([watch.called_for()])

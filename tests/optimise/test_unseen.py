@@ -109,7 +109,7 @@ def test_held_out_pixels_can_switch_it_off(clip, monkeypatch):
     run = small_run(clip, prior="embedded")
     events = list(run)
     changed = [e for e in events if isinstance(e, EffectChanged)]
-    assert len(changed) == 1 and changed[0].effect == "unseen_views" and "held-out" in changed[0].reason
+    assert len(changed) == 1 and changed[0].effect == "unseen_views" and "Held-out" in changed[0].reason
     assert changed[0].reason.count("dB") == 2 and "unseen" not in steps(events)[-1].losses
     assert not any(model.gaussians.invented.any() for model in run.scene.objects)
     monkeypatch.setattr(unseen, "WORSE", 100.0)

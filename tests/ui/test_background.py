@@ -8,7 +8,7 @@ import pytest
 from PySide6.QtCore import QObject
 
 from genmojo_studio.background import Tasks
-from genmojo_studio.garbage import Collector
+from genmojo_studio.garbage import MOST, Collector
 
 
 def test_results_and_errors_come_back_on_the_ui_thread(qapp, qtbot):
@@ -84,6 +84,33 @@ def test_cycles_are_collected_by_the_timer_and_not_by_allocation(qapp, qtbot):
     assert not gc.isenabled() and not died
     qtbot.waitUntil(lambda: bool(died), timeout=60_000)
     assert set(died) == {threading.main_thread()}
+    collector.deleteLater()
+
+
+def test_what_came_at_once_in_great_number_is_never_gone_through_by_the_timer(qapp, qtbot):
+    """A library that a thread has loaded: hundreds of thousands of objects that all stay."""
+    keeper = QObject()
+    collector = Collector(keeper)
+
+    class Node:
+        """Half of a cycle."""
+
+    rounds = []
+    gc.callbacks.append(rounds_of := lambda phase, info: rounds.append((phase, info["generation"])))
+    try:
+        stays = [[] for _ in range(MOST + 1)]
+        a, b = Node(), Node()
+        a.other, b.other = b, a
+        gone = weakref.ref(a)
+        del a, b
+        before = gc.get_freeze_count()
+        collector.collect()
+        assert not rounds and gc.get_freeze_count() > before + MOST
+    finally:
+        gc.callbacks.remove(rounds_of)
+    assert gone() is not None and len(stays) > MOST
+    collector.sweep()
+    assert gone() is None
     collector.deleteLater()
 
 

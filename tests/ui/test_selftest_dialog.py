@@ -37,7 +37,7 @@ def test_a_broken_case_is_marked_and_no_answer_is_told(window, qtbot):
 
 def test_closing_ends_the_program_and_the_menu_leads_to_it(window, qtbot, monkeypatch):
     opened = []
-    monkeypatch.setattr(SelftestDialog, "exec", lambda self: opened.append(self))
+    monkeypatch.setattr(SelftestDialog, "open", lambda self: opened.append(self))
     window.table.trigger("help.selftest")
     (dialog,) = opened
     qtbot.waitUntil(lambda: dialog._process.state() == QProcess.ProcessState.Running, timeout=60_000)

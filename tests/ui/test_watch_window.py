@@ -58,6 +58,7 @@ def watch(window, qtbot, tmp_path):
     path = tmp_path / "scene.h5"
     scene_hdf5.write(_scene(), path)
     window.open_path(path)
+    qtbot.waitUntil(lambda: "watch" in window.workspaces, timeout=60_000)
     qtbot.waitUntil(lambda: window.workspaces["watch"].session.scene is not None, timeout=60_000)
     return window.workspaces["watch"]
 
@@ -291,6 +292,21 @@ def test_directions_that_a_prior_judges_come_to_the_map_while_the_run_goes_on(wa
     assert watch.view_panel.badge.property("role") == "good"
     shown = watch.view_panel.map
     np.testing.assert_array_equal(shown._away, view_map.distances(np.concatenate([own, more])))
+
+
+def test_thousands_of_supervised_directions_are_a_point_for_every_place_on_the_map(watch):
+    """What is painted is bounded by the map, not by how long a run has gone on."""
+    rng = np.random.default_rng(5)
+    many = np.stack([rng.uniform(-40, 40, 20_000), rng.uniform(-180, 180, 20_000), np.zeros(20_000)], axis=1)
+    field = watch.view_panel.map._field()
+    spots = view_map._spots(field, many)
+    assert len(spots) <= (field.width() / view_map._SPOT + 2) * (field.height() / view_map._SPOT + 2)
+    few = view_map._spots(field, many[:5])
+    places = sorted((point.x(), point.y()) for point in (few.at(i) for i in range(few.size())))
+    wanted = [view_map._place(field, elevation, azimuth) for elevation, azimuth, _ in many[:5]]
+    np.testing.assert_allclose(places, sorted((point.x(), point.y()) for point in wanted), atol=1e-9)
+    alone = np.min([view_map.distances(row[None]) for row in many[:300]], axis=0)
+    np.testing.assert_allclose(view_map.distances(many[:300]), alone, atol=1e-6)
 
 
 def test_a_turn_of_the_time_bar_as_the_run_ends_is_no_fault(window, watch, told):

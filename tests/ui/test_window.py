@@ -9,9 +9,11 @@ import pytest
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QMessageBox
 
 from genmojo_core.errors import GenmojoError
 from genmojo_studio import notify
+from genmojo_studio.about import About
 from genmojo_studio.palette import Palette
 from genmojo_studio.shortcuts import KeyEditor, KeySheet
 
@@ -158,6 +160,49 @@ def test_the_layout_comes_back(window):
     assert watch.docks["tracks"].isFloating()
     window.table.trigger("window.reset")
     assert not watch.docks["tracks"].isFloating()
+
+
+def test_a_workspace_is_loaded_on_a_thread_before_it_is_shown(window, qtbot, monkeypatch):
+    """In the first second after the start: the window answers while plots and readers are imported."""
+    import importlib
+    import threading
+
+    from genmojo_studio import window as module
+
+    real, on, go = importlib.import_module, [], threading.Event()
+
+    def slow(name, *package):
+        if name == module._MODULES["watch"]:
+            on.append(threading.current_thread())
+            assert go.wait(60)
+        return real(name, *package)
+
+    monkeypatch.setattr(module.importlib, "import_module", slow)
+    window._loaded.clear()
+    window.table.trigger("window.watch")
+    qtbot.waitUntil(lambda: bool(on), timeout=60_000)
+    assert window.workspace == "" and threading.main_thread() not in on
+    go.set()
+    qtbot.waitUntil(lambda: window.workspace == "watch", timeout=60_000)
+
+
+@pytest.mark.parametrize(
+    ("action", "kind"), [("help.keys", KeySheet), ("file.settings", KeyEditor), ("help.about", About)]
+)
+def test_dialogs_of_the_menus_leave_the_program_running(window, qtbot, action, kind):
+    assert window.table.trigger(action)  # it returns: nothing waits for the dialog
+    dialogs = window.findChildren(kind)
+    assert len(dialogs) == 1 and dialogs[0].isVisible()
+    dialogs[0].reject()
+    qtbot.waitUntil(lambda: not window.findChildren(kind), timeout=60_000)
+
+
+def test_a_fault_is_told_without_holding_anything_up(qapp, qtbot, window):
+    notify._show(window, "That did not work", "clip.mp4: cannot be read.", "")
+    boxes = window.findChildren(QMessageBox)
+    assert len(boxes) == 1 and boxes[0].isVisible() and boxes[0].informativeText() == "clip.mp4: cannot be read."
+    boxes[0].reject()
+    qtbot.waitUntil(lambda: not window.findChildren(QMessageBox) and not notify._shown, timeout=60_000)
 
 
 def test_a_changed_key_works_and_its_conflict_is_named(window):
