@@ -27,7 +27,8 @@ def end_and_resume(run_dir, fault, at):
     Kills come from outside at that step.
     """
     inside = fault if fault not in ("killed", "shot") else ""
-    options = {"steps": 60, "step_seconds": 0.004, "fault": inside, "at": at}
+    options = {"steps": 60, "lift": 30, "step_seconds": 0.004, "fault": inside, "at": at}
+    options |= {} if inside else {"endless": 1}  # however late the kill comes
     with watched() as window:
         window.client.start(fake_request(run_dir, **options))
         if not inside:

@@ -1,7 +1,8 @@
 """A worker whose optimiser only walks at random: the whole machinery without torch, and faults on request.
 
-The request's `models` say what it does: step_seconds, steps, gaussians, frames; fault (exception, memory, segfault,
-exit, hang, spin, compile) at which step.
+The request's `models` say what it does: step_seconds, steps, lift (of these), gaussians, frames; fault (exception,
+memory, segfault, exit, hang, compile) at which step; endless: it goes on until it is killed, and for `steps` once
+resumed. It begins when a window listens, so that no test depends on how soon that is.
 """
 
 from __future__ import annotations
@@ -46,6 +47,7 @@ class FakeRun:
         options = host.request.models
         self.step_seconds = float(options.get("step_seconds", 0.01))
         self.steps = int(options.get("steps", 60))
+        self.lift = int(options.get("lift", self.steps // 2))
         self.count = int(options.get("gaussians", 300))
         self.frames = int(options.get("frames", 4))
         self.fault, self.at = options.get("fault", ""), int(options.get("at", 5))
@@ -55,6 +57,8 @@ class FakeRun:
         self.checkpoint_path = host.folder / "checkpoint.json"
         if host.request.resume:
             self.done = json.loads(self.checkpoint_path.read_text())["step"]
+        if options.get("endless"):
+            self.steps = self.done + self.steps if host.request.resume else 10**9
 
     @property
     def steps_done(self) -> int:
@@ -95,8 +99,7 @@ class FakeRun:
 
     def __iter__(self) -> Iterator[events.Event]:
         yield events.Preview(0.0, 0.0, "first scene", 0, self.reference, 20.0)
-        half = self.steps // 2
-        for stage, first, end in (("lift", 0, half), ("joint", half, self.steps)):
+        for stage, first, end in (("lift", 0, self.lift), ("joint", self.lift, self.steps)):
             yield events.StageStarted(0.0, 0.0, stage, end - first)
             while first <= self.done < end and not self.stopped:
                 self._spoil()
@@ -143,9 +146,19 @@ def fill_memory() -> None:
         held.append(np.ones(2 << 20))
 
 
+def wait_for_a_window(host: worker.Host) -> None:
+    """Until one has said hello; a minute at most."""
+    until = time.monotonic() + 60
+    while host.link is not None and not any(window.known for window in list(host.link._windows)):
+        if time.monotonic() > until:
+            return
+        time.sleep(0.005)
+
+
 class FakeJob:
     def run(self, host: worker.Host) -> None:
         host.session.enter("ready")
+        wait_for_a_window(host)
         run = FakeRun(host)
         worker.drive(host, run)
         if host.session.keep:

@@ -54,7 +54,7 @@ def test_the_next_run_begins_while_the_last_worker_leaves(tmp_path):
 def test_pause_step_and_stage(tmp_path):
     """Acknowledged within a step; n steps are n steps; a pause makes none; the next stage begins paused."""
     with watched() as window:
-        window.client.start(fake_request(tmp_path, steps=200, step_seconds=0.01))
+        window.client.start(fake_request(tmp_path, steps=100_000, lift=100, step_seconds=0.01))
         window.until(lambda: window.steps() >= 5)
         assert window.answer(window.client.pause()) == (True, "paused")
         assert window.client.state == "paused"
@@ -74,7 +74,7 @@ def test_pause_step_and_stage(tmp_path):
         assert window.client.state == "running"
         window.answer(window.client.stop(keep=True))
         window.until_state("done")
-        assert window.events[-1]["event"] == "SceneWritten" and window.steps() < 200
+        assert window.events[-1]["event"] == "SceneWritten" and window.steps() < 100_000
 
 
 def test_starting_paused_waits_before_the_first_step(tmp_path):

@@ -26,7 +26,7 @@ def clip_path(tmp_path_factory):
 
 
 def request(clip_path, run_dir, **changes):
-    config = small_config(lift_steps=10, joint_steps=400, checkpoint_seconds=0.2, **changes).to_json()
+    config = small_config(lift_steps=10, joint_steps=4000, checkpoint_seconds=0.2, **changes).to_json()
     names = ("gaussians_per_object", "background_gaussians", "lift_steps", "joint_steps", "plane_resolution",
              "plane_channels", "field_width", "motion_bases", "densify_every", "neighbours", "short_side",
              "checkpoint_seconds")  # fmt: skip
