@@ -138,9 +138,7 @@ def _item(row: Mapping[str, Any]) -> QTreeWidgetItem:
     bound = f"{row['threshold']:.3g}"
     sign = "≥" if row["evidence"] >= row["threshold"] else "<"
     known = row.get("known")
-    cost = (
-        tr("{ms:.1f} ms measured").format(ms=known["ms"]) if known and "ms" in known else f"{row['ms_per_step']:.1f} ms"
-    )
+    cost = f"{known['ms']:.1f} ms" if known and "ms" in known else f"≈ {row['ms_per_step']:.1f} ms"
     item = QTreeWidgetItem([_title(str(row["name"])), f"{evidence} {sign} {bound}", cost])
     item.setData(0, _NAME, row["name"])
     item.setCheckState(0, Qt.CheckState.Checked if row["on"] else Qt.CheckState.Unchecked)

@@ -22,6 +22,7 @@ from genmojo_studio.view3d.snapshot import SceneSnapshot
 from genmojo_studio.watch import track_overlay
 from genmojo_studio.watch.appearance import Appearance
 from genmojo_studio.watch.controls import dim
+from genmojo_studio.watch.track_overlay import Chosen
 from genmojo_studio.watch.track_sets import TrackSet
 
 
@@ -37,7 +38,7 @@ class LiveView(SceneView):
         self._quiet = False
         self._pending: SceneSnapshot | None = None
         self._sets: tuple[TrackSet, ...] = ()
-        self._selected: tuple[str, int] | None = None
+        self._selected: Chosen = ()
         self._nothing = dim()
         self._nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
         layout = QVBoxLayout(self)
@@ -64,7 +65,7 @@ class LiveView(SceneView):
             self.set_snapshot(self._pending)
             self._pending = None
 
-    def show_tracks(self, sets: Iterable[TrackSet], selected: tuple[str, int] | None) -> None:
+    def show_tracks(self, sets: Iterable[TrackSet], selected: Chosen) -> None:
         """Draws 3D tracks over the scene."""
         self._sets, self._selected = tuple(sets), selected
         self.overlay.update()

@@ -14,6 +14,7 @@ from genmojo_studio.annotate.mapping import Mapping, fitted
 from genmojo_studio.state import AppState
 from genmojo_studio.theme import colours
 from genmojo_studio.watch import track_overlay
+from genmojo_studio.watch.track_overlay import Chosen
 from genmojo_studio.watch.track_sets import TrackSet
 
 
@@ -32,7 +33,7 @@ class Picture(QWidget):
         self._fits = True
         self._dragged: QPointF | None = None
         self._sets: tuple[TrackSet, ...] = ()
-        self._selected: tuple[str, int] | None = None
+        self._selected: Chosen = ()
         self._caption = ""
         self.setMinimumSize(160, 90)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
@@ -51,7 +52,7 @@ class Picture(QWidget):
                 self._fit()
         self.update()
 
-    def show_tracks(self, sets: Iterable[TrackSet], selected: tuple[str, int] | None) -> None:
+    def show_tracks(self, sets: Iterable[TrackSet], selected: Chosen) -> None:
         """Draws tracks, in source pixels of the clip, over the picture."""
         self._sets, self._selected = tuple(sets), selected
         self.update()

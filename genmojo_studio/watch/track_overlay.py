@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from PySide6.QtCore import QLineF, QPointF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+from PySide6.QtGui import QColor, QIcon, QPainter, QPen, QPixmap, QPolygonF
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.tracks.model import NONE, OUT_OF_VIEW, VISIBLE, PointTracks
@@ -15,14 +17,17 @@ from genmojo_studio.watch.track_sets import TrackSet
 
 TRAIL = 12  # frames
 _STYLES = {"predicted": 0, "annotated": 1, "imported": 2}
+_PALE = 0.4  # of the other tracks, while some are chosen
+_BRIGHT = QColor("white")
+Chosen = tuple[tuple[str, int], ...]  # (set, row) of tracks: one, and the one that it is compared with
 Project = Callable[[PointTracks, int], np.ndarray]  # (tracks, frame) -> (N, 2) widget pixels, NaN where not drawn
 
 
-def paint(
-    painter: QPainter, sets: Iterable[TrackSet], frame: int, project: Project, selected: tuple[str, int] | None = None
-) -> None:
-    """Draws the shown sets at a frame; `selected` (set, row) is drawn thicker."""
+def paint(painter: QPainter, sets: Iterable[TrackSet], frame: int, project: Project, selected: Chosen = ()) -> None:
+    """Draws the shown sets at a frame; the `selected` tracks last and bright, with a line from one to the next."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    bright: dict[tuple[str, int], Callable[[], QPointF | None]] = {}
+    painter.setOpacity(_PALE if selected else 1.0)
     for one in sets:
         if not one.shown or not 0 <= frame < one.tracks.state.shape[1]:
             continue
@@ -31,10 +36,54 @@ def paint(
         states = one.tracks.state[:, first : frame + 1]
         for n in range(len(trail)):
             colour = QColor(SERIES[int(one.tracks.object[n]) % len(SERIES)])
-            chosen = selected == (one.name, n)
-            _paint_trail(painter, trail[n], states[n], colour, 2.5 if chosen else 1.3)
-            if np.isfinite(trail[n, -1]).all() and states[n, -1] != NONE:
-                _paint_mark(painter, trail[n, -1], int(states[n, -1]), _STYLES.get(one.kind, 0), colour, chosen)
+            drawn = _Drawn(trail[n], states[n], colour, _STYLES.get(one.kind, 0))
+            if (one.name, n) in selected:
+                bright[one.name, n] = partial(_paint_track, painter, drawn, True)
+            else:
+                _paint_track(painter, drawn, False)
+    painter.setOpacity(1.0)
+    places = [bright[key]() for key in selected if key in bright]
+    known = [place for place in places if place is not None]
+    painter.setPen(QPen(_BRIGHT, 1.5))
+    painter.drawPolyline(QPolygonF(known))
+
+
+@dataclass(frozen=True)
+class _Drawn:
+    """One track: (F, 2) widget pixels and (F,) states up to the frame on show, its colour, its origin's mark."""
+
+    trail: np.ndarray
+    states: np.ndarray
+    colour: QColor
+    style: int
+
+
+def _paint_track(painter: QPainter, drawn: _Drawn, chosen: bool) -> QPointF | None:
+    """Trail and mark; where the point is now, if it is anywhere."""
+    trail, states = drawn.trail, drawn.states
+    if chosen:
+        _paint_trail(painter, trail, states, _BRIGHT, 4.5)
+    _paint_trail(painter, trail, states, drawn.colour, 2.5 if chosen else 1.3)
+    if not np.isfinite(trail[-1]).all() or states[-1] == NONE:
+        return None
+    at = QPointF(float(trail[-1, 0]), float(trail[-1, 1]))
+    if chosen:
+        painter.setPen(QPen(_BRIGHT, 2.0))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.drawEllipse(at, 9.0, 9.0)
+    paint_mark(painter, at, int(states[-1]), drawn.style, drawn.colour)
+    return at
+
+
+def mark_of(kind: str, colour: QColor) -> QIcon:
+    """The mark of an origin, for lists."""
+    picture = QPixmap(14, 14)
+    picture.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(picture)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    paint_mark(painter, QPointF(7, 7), VISIBLE, _STYLES[kind], colour)
+    painter.end()
+    return QIcon(picture)
 
 
 def by_camera(view: View, scale: tuple[float, float], offset: tuple[float, float]) -> Project:
@@ -66,14 +115,13 @@ def _paint_trail(painter: QPainter, trail: np.ndarray, states: np.ndarray, colou
         painter.drawLines(lines)
 
 
-def _paint_mark(painter: QPainter, at: np.ndarray, state: int, style: int, colour: QColor, chosen: bool) -> None:
+def paint_mark(painter: QPainter, at: QPointF, state: int, style: int, colour: QColor) -> None:
     """Disc, square or diamond by origin; hollow where the point is hidden; a dark rim keeps it readable."""
-    size = 5.0 if chosen else 3.6
+    size, x, y = 3.6, at.x(), at.y()
     painter.setPen(QPen(QColor(0, 0, 0, 190), 1.2) if state == VISIBLE else QPen(colour, 1.6))
     painter.setBrush(colour if state == VISIBLE else Qt.BrushStyle.NoBrush)
-    x, y = float(at[0]), float(at[1])
     if style == 0:
-        painter.drawEllipse(QPointF(x, y), size, size)
+        painter.drawEllipse(at, size, size)
     elif style == 1:
         painter.drawRect(round(x - size), round(y - size), round(2 * size), round(2 * size))
     else:

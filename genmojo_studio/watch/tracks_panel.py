@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QComboBox,
     QFileDialog,
@@ -28,9 +29,10 @@ from genmojo_studio.background import Tasks
 from genmojo_studio.state import AppState
 from genmojo_studio.theme import SERIES
 from genmojo_studio.translate import tr
-from genmojo_studio.watch import track_sets
+from genmojo_studio.watch import track_overlay, track_sets
 from genmojo_studio.watch.controls import row
 from genmojo_studio.watch.plots import LatePlot
+from genmojo_studio.watch.track_overlay import Chosen
 from genmojo_studio.watch.track_sets import Apart, TrackSet, TrackSets
 
 _MOST_WORST = 50
@@ -46,6 +48,7 @@ class TracksPanel(QWidget):
         self._state = state
         self.sets = TrackSets()
         self._apart: Apart | None = None
+        self._chosen: int | None = None  # row of the set that is compared
         self._scene: BakedScene | None = None
         self._tasks = Tasks()
         self.list = QTreeWidget()
@@ -57,7 +60,7 @@ class TracksPanel(QWidget):
         self.said = QLabel()
         self.said.setProperty("role", "dim")
         self.worst = QTreeWidget()
-        self.worst.setHeaderLabels([tr("Track"), tr("Worst frame"), tr("Distance")])
+        self.worst.setHeaderLabels([tr("Track"), tr("Worst frame"), tr("Distance (px at 256)")])
         self.worst.setRootIsDecorated(False)
         bring, jump = QPushButton(tr("Import…")), QPushButton(tr("Jump to worst"))
         self.follow = QPushButton(tr("Follow through the scene"))
@@ -73,16 +76,21 @@ class TracksPanel(QWidget):
         layout.addLayout(_column(self.worst, row(jump)), 3)
         self.list.itemChanged.connect(self._ticked)
         for box in (self.which, self.reference):
-            box.activated.connect(self._compare)
-        self.worst.itemClicked.connect(self._jump)
+            box.activated.connect(self._compare_others)
+        self.worst.itemClicked.connect(self._toggle)
         state.subscribe(self._follow_clip, "clip")
         state.subscribe(self._show_frame, "frame")
 
     @property
-    def selected(self) -> tuple[str, int] | None:
-        """(set, row) of the selected track."""
-        chosen = self._state.selected_track
-        return (str(self.which.currentData()), chosen) if chosen is not None and self.which.count() else None
+    def selected(self) -> Chosen:
+        """The selected track, and the one of the reference that it is compared with."""
+        row = self._chosen
+        if row is None or not self.which.count():
+            return ()
+        chosen = ((str(self.which.currentData()), row),)
+        if self._apart is None or row >= len(self._apart.partner) or self._apart.partner[row] < 0:
+            return chosen
+        return (*chosen, (str(self.reference.currentData()), int(self._apart.partner[row])))
 
     def show_scene(self, scene: BakedScene | None) -> None:
         """Takes the predicted tracks of a scene file; None for a run that goes on."""
@@ -136,6 +144,8 @@ class TracksPanel(QWidget):
         kinds = {"predicted": tr("predicted"), "annotated": tr("annotated"), "imported": tr("imported")}
         for one in self.sets.sets.values():
             item = QTreeWidgetItem([one.name, kinds[one.kind], str(len(one.tracks.state))])
+            item.setIcon(1, track_overlay.mark_of(one.kind, QColor(SERIES[0])))
+            item.setToolTip(1, tr("Its points have this mark, hollow where they are hidden; trails are dotted there."))
             item.setCheckState(0, Qt.CheckState.Checked if one.shown else Qt.CheckState.Unchecked)
             self.list.addTopLevelItem(item)
         self.list.blockSignals(False)
@@ -153,11 +163,15 @@ class TracksPanel(QWidget):
     def _first_of(self, kind: str) -> str:
         return next((one.name for one in self.sets.sets.values() if one.kind == kind), "")
 
+    def _compare_others(self) -> None:
+        self._compare()
+        self.changed.emit()
+
     def _compare(self) -> None:
         first = self.sets.sets.get(str(self.which.currentData()))
         second = self.sets.sets.get(str(self.reference.currentData()))
         self.worst.clear()
-        self._apart = None
+        self._apart = self._chosen = None
         self.said.setText("" if self.sets.sets else tr("Import tracks, or place points in the workspace Annotate."))
         if first is None or second is None or first is second:
             self.plot.draw()
@@ -171,7 +185,7 @@ class TracksPanel(QWidget):
             count = int((self._apart.partner >= 0).sum())
             self.said.setText(text.format(count=count, median=float(np.median(known)), share=share))
         for track, frame, distance in self._apart.worst(_MOST_WORST):
-            item = QTreeWidgetItem([str(track + 1), str(frame + 1), f"{distance:.1f} px"])
+            item = QTreeWidgetItem([str(track + 1), str(frame + 1), f"{distance:.1f}"])
             item.setData(0, Qt.ItemDataRole.UserRole, (track, frame))
             self.worst.addTopLevelItem(item)
 
@@ -183,8 +197,18 @@ class TracksPanel(QWidget):
         if item is not None:
             track, frame = item.data(0, Qt.ItemDataRole.UserRole)
             self.worst.setCurrentItem(item)
-            self._state.set(playing=False, frame=int(frame), selected_track=int(track))
+            self._chosen = int(track)
+            self._state.set(playing=False, frame=int(frame))
             self.changed.emit()
+
+    def _toggle(self, item: QTreeWidgetItem) -> None:
+        """A click on the track that is chosen already lets all stand out alike again."""
+        if item.data(0, Qt.ItemDataRole.UserRole) == (self._chosen, self._state.frame):
+            self._chosen = None
+            self.worst.clearSelection()
+            self.changed.emit()
+        else:
+            self._jump(item)
 
     def _clicked(self, event: object) -> None:
         if self.plot.plot is not None:

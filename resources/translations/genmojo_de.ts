@@ -1900,10 +1900,6 @@
       <translation>Kosten</translation>
     </message>
     <message>
-      <source>{ms:.1f} ms measured</source>
-      <translation>{ms:.1f} ms gemessen</translation>
-    </message>
-    <message>
       <source>Joint occlusion</source>
       <translation>Gemeinsame Verdeckung</translation>
     </message>
@@ -2460,8 +2456,8 @@
       <translation>Schlechtestes Bild</translation>
     </message>
     <message>
-      <source>Distance</source>
-      <translation>Abstand</translation>
+      <source>Distance (px at 256)</source>
+      <translation>Abstand (px bei 256)</translation>
     </message>
     <message>
       <source>Jump to worst</source>
@@ -2470,6 +2466,10 @@
     <message>
       <source>against</source>
       <translation>gegen</translation>
+    </message>
+    <message>
+      <source>Its points have this mark, hollow where they are hidden; trails are dotted there.</source>
+      <translation>Ihre Punkte haben dieses Zeichen, hohl, wo sie verdeckt sind; Spuren sind dort gepunktet.</translation>
     </message>
     <message>
       <source>Import tracks, or place points in the workspace Annotate.</source>

@@ -19,7 +19,7 @@ from genmojo_studio import theme
 from genmojo_studio.view3d.look import Mode
 from genmojo_studio.view3d.orbit import Orbit
 from genmojo_studio.view3d.snapshot import SceneSnapshot
-from genmojo_studio.watch import view_map
+from genmojo_studio.watch import track_overlay, view_map
 from genmojo_studio.watch.time_bar import TimeBar
 
 _FRAMES = 4
@@ -341,3 +341,53 @@ def test_another_theme_is_on_show_soon_and_then_everywhere(window, watch, qtbot)
     plain = next(b for b in window.welcome.findChildren(QPushButton) if not b.isDefault())
     qtbot.waitUntil(lambda: ground(plain) == other.raised, timeout=60_000)
     window.table.trigger("window.theme")
+
+
+def test_the_worst_track_and_the_one_it_is_compared_with_stand_out(watch, qtbot):
+    """Both drawn bright with a line between them, all others pale; a second click lets them be."""
+    panel, size = watch.tracks, (160, 90)
+    at = np.stack([np.linspace(30, 60, 3), np.full(3, 40.0)], axis=1)[:, None].repeat(_FRAMES, axis=1)
+    states, owners = np.full((3, _FRAMES), VISIBLE, np.uint8), np.array([1, 1, 2])
+    off = at.copy()
+    off[1, 2] += (0, 6)
+    panel.add("truth", "annotated", PointTracks(at.astype(np.float32), states, owners, size))
+    panel.add("found", "imported", PointTracks(off.astype(np.float32), states, owners, size))
+    panel.which.setCurrentIndex(panel.which.findData("found"))
+    panel.reference.setCurrentIndex(panel.reference.findData("truth"))
+    panel.which.activated.emit(panel.which.currentIndex())
+    assert panel.selected == ()
+    panel.jump_to_worst()
+    assert watch.state.frame == 2 and panel.selected == (("found", 1), ("truth", 1))
+
+    class Painted:
+        """What is drawn, with the opacity at that time."""
+
+        def __init__(self):
+            self.opacity, self.marks, self.joined = 1.0, [], []
+
+        def setOpacity(self, share):  # noqa: N802 - Qt's name
+            self.opacity = share
+
+        def drawPolygon(self, corners):  # noqa: N802 - Qt's name
+            self.marks.append(("imported", self.opacity))
+
+        def drawRect(self, *box):  # noqa: N802 - Qt's name
+            self.marks.append(("annotated", self.opacity))
+
+        def drawPolyline(self, line):  # noqa: N802 - Qt's name
+            self.joined += [(line.at(i).x(), line.at(i).y()) for i in range(line.size())]
+
+        def __getattr__(self, name):
+            return lambda *_: None
+
+    def painted():
+        found = Painted()
+        track_overlay.paint(found, panel.sets.sets.values(), 2, lambda tracks, t: tracks.xy[:, t], panel.selected)
+        return found
+
+    chosen = painted()
+    assert chosen.marks[-2:] == [("imported", 1.0), ("annotated", 1.0)]
+    assert sorted(share < 1 for _, share in chosen.marks) == [False, False, True, True, True, True]
+    np.testing.assert_allclose(chosen.joined, [off[1, 2], at[1, 2]], atol=1e-4)
+    panel._toggle(panel.worst.topLevelItem(0))
+    assert panel.selected == () and all(share == 1.0 for _, share in painted().marks) and not painted().joined
