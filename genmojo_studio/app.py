@@ -22,6 +22,7 @@ from genmojo_studio.state import AppState
 from genmojo_studio.watch import actions as watch_actions
 from genmojo_studio.window import MainWindow
 
+_SWITCH_SECONDS = 1e-3  # after which a thread gives Python's lock to the window's; the default is 5 ms, often a frame
 RESOURCES = Path(__file__).resolve().parent.parent / "resources"
 
 
@@ -60,6 +61,7 @@ def make_application(argv: Sequence[str] = ("genmojo-studio",)) -> QApplication:
     application.setDesktopFileName("genmojo-studio")
     application.setWindowIcon(QIcon(str(RESOURCES / "icons" / "genmojo-studio.svg")))
     Collector(application)
+    sys.setswitchinterval(_SWITCH_SECONDS)
     return application
 
 

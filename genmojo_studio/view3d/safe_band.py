@@ -7,7 +7,7 @@ import numpy as np
 from genmojo_studio.view3d.orbit import Orbit
 
 SAFE_DEGREES = 10.0  # a view this close to a supervised one counts as supervised
-_AT_ONCE = 128  # rows that all directions are compared with at a time: a long run supervises thousands of views
+_PAIRS = 330_000  # of directions that are compared at a time: a long run supervises thousands of views
 
 
 def degrees_outside(orbit: Orbit, supervised: np.ndarray) -> float:
@@ -23,8 +23,9 @@ def degrees_to_supervised(angles: np.ndarray, supervised: np.ndarray) -> np.ndar
     rows = np.asarray(supervised, np.float64).reshape(-1, 3)[:, :2]
     wanted, seen = _directions(np.asarray(angles, np.float64)), _directions(np.concatenate([np.zeros((1, 2)), rows]))
     cosine = np.full(len(wanted), -1.0)
-    for first in range(0, len(seen), _AT_ONCE):
-        np.maximum(cosine, (seen[first : first + _AT_ONCE] @ wanted.T).max(axis=0), out=cosine)
+    rows_at_once = max(1, _PAIRS // max(len(wanted), 1))
+    for first in range(0, len(seen), rows_at_once):
+        np.maximum(cosine, (seen[first : first + rows_at_once] @ wanted.T).max(axis=0), out=cosine)
     return np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
 
 

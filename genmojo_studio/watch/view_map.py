@@ -25,6 +25,7 @@ from genmojo_studio.theme import colours
 from genmojo_studio.translate import tr
 from genmojo_studio.view3d.orbit import Orbit
 from genmojo_studio.view3d.safe_band import SAFE_DEGREES, degrees_to_supervised
+from genmojo_studio.watch.latest import Latest
 
 _CELL = 5  # degrees of one cell of the map
 _FAR = 90.0  # degrees from any supervised view, from where it gets no darker
@@ -49,6 +50,9 @@ class ViewMap(QWidget):
         self._orbit = Orbit()
         self._supervised = np.zeros((0, 3), np.float32)
         self._away = np.zeros((0, 0))
+        self._asked: np.ndarray | None = None  # the supervised views that are on the map or will soon be
+        self._latest = Latest(self)
+        self._latest.done.connect(self._take)
         self._picture: tuple[tuple[str, QSize, float], QPixmap] | None = None
         self.setMinimumHeight(120)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -65,21 +69,25 @@ class ViewMap(QWidget):
         return QSize(300, 160)
 
     def show_view(self, orbit: Orbit, supervised: np.ndarray) -> None:
-        """Where the view is; `supervised` are rows (elevation, azimuth, frame) as in a snapshot."""
-        if not self._away.size or not np.array_equal(supervised, self._supervised):
-            self._extend(np.asarray(supervised))
+        """Where the view is; `supervised` are rows (elevation, azimuth, frame) as in a snapshot.
+
+        They come on the map a moment later: how far everything is from thousands of views is found on a thread.
+        """
+        if self._asked is None or not np.array_equal(supervised, self._asked):
+            self._asked = np.asarray(supervised)
+            wanted, known = self._asked, (self._supervised, self._away)
+            self._latest.ask(lambda: (wanted, extended(known, wanted)))
         self._orbit = orbit
         self.update()
 
-    def _extend(self, supervised: np.ndarray) -> None:
-        """While a run goes on, more views come after those that are known: only they are looked at."""
-        known = len(self._supervised)
-        if known and self._away.size and np.array_equal(supervised[:known], self._supervised):
-            self._away = np.minimum(self._away, distances(supervised[known:]))
-        else:
-            self._away = distances(supervised)
-        self._supervised = supervised
+    def close_tasks(self) -> None:
+        """No more results."""
+        self._latest.close()
+
+    def _take(self, found: tuple[np.ndarray, np.ndarray]) -> None:
+        self._supervised, self._away = found
         self._picture = None
+        self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         """The field, supervised views, the view's own place."""
@@ -183,6 +191,17 @@ def distances(supervised: np.ndarray) -> np.ndarray:  # (36, 72) degrees
     azimuth = np.arange(-180 + _CELL / 2, 180, _CELL)
     grid = np.stack(np.meshgrid(elevation, azimuth, indexing="ij"), -1)
     return degrees_to_supervised(grid.reshape(-1, 2), supervised).reshape(grid.shape[:2])
+
+
+def extended(known: tuple[np.ndarray, np.ndarray], supervised: np.ndarray) -> np.ndarray:
+    """`distances(supervised)`; `known`: supervised views and distances that are there already.
+
+    While a run goes on, more views come after those that are known: only they are looked at.
+    """
+    before, away = known
+    if len(before) and away.size and np.array_equal(supervised[: len(before)], before):
+        return np.minimum(away, distances(supervised[len(before) :]))
+    return distances(supervised)
 
 
 def angles_at(field: QRectF, point: QPointF) -> tuple[float, float]:

@@ -129,6 +129,7 @@ class WatchWorkspace(QMainWindow):
         self.center.comparison.close()
         self.picking.close_tasks()
         self.tracks.close_tasks()
+        self.view_panel.map.close_tasks()
         self.compare.close_tasks()
         self.view.close()
         self.tasks.close()

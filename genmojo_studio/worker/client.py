@@ -304,7 +304,8 @@ class WorkerClient(QObject):
 
     def _catch_up(self, end: int | None) -> None:
         """Tell what was said while nobody listened, up to an event's number (None: to the end)."""
-        events = runs.read_events(self.run_dir)[self._events : end]
+        events = runs.read_events(self.run_dir, self._events)
+        events = events if end is None else events[: max(0, end - self._events)]
         self._events += len(events)
         for event in events:
             self.event_received.emit(event)

@@ -154,14 +154,14 @@ def read_json(path: Path) -> dict[str, Any]:
     return data if isinstance(data, dict) else {}
 
 
-def read_events(run_dir: str | Path) -> list[dict[str, Any]]:
-    """Everything a run has told so far, in order; a last line that is cut off is left out."""
+def read_events(run_dir: str | Path, after: int = 0) -> list[dict[str, Any]]:
+    """What a run has told so far, in order, but the first `after` events; a last line that is cut off is left out."""
     try:
         lines = (Path(run_dir) / EVENTS).read_bytes().splitlines(keepends=True)
     except OSError:
         return []
     events = []
-    for line in lines:
+    for line in lines[after:]:
         if not line.endswith(b"\n"):
             break
         try:

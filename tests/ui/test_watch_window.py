@@ -1,5 +1,6 @@
 """The workspace Watch on a scene: what a person sees and changes, and that previews do not hold up the window."""
 
+import threading
 import time
 from dataclasses import replace
 
@@ -282,7 +283,7 @@ def test_what_is_behind_the_scene_follows_the_theme_or_the_choice(window, watch)
     assert behind() == dark
 
 
-def test_directions_that_a_prior_judges_come_to_the_map_while_the_run_goes_on(watch):
+def test_directions_that_a_prior_judges_come_to_the_map_while_the_run_goes_on(watch, qtbot):
     own = np.zeros((_FRAMES, 3), np.float32)
     more = np.array([[20.0, 120.0, 1.0]], np.float32)
     watch.session.take_preview(replace(watch.session.snapshot, supervised=own, version=50))
@@ -290,8 +291,29 @@ def test_directions_that_a_prior_judges_come_to_the_map_while_the_run_goes_on(wa
     assert watch.view_panel.badge.property("role") == "warn"
     watch.session.take_preview(replace(watch.session.snapshot, supervised=np.concatenate([own, more]), version=51))
     assert watch.view_panel.badge.property("role") == "good"
+    shown, wanted = watch.view_panel.map, np.concatenate([own, more])
+    qtbot.waitUntil(lambda: np.array_equal(shown._supervised, wanted), timeout=60_000)
+    np.testing.assert_allclose(shown._away, view_map.distances(wanted), atol=1e-9)
+
+
+def test_how_far_the_map_is_from_thousands_of_views_is_found_on_a_thread(watch, qtbot, monkeypatch):
+    """A run that ends brings them all at once: the window goes on meanwhile."""
+    on, go, real = [], threading.Event(), view_map.distances
+
+    def slow(supervised):
+        on.append(threading.current_thread())
+        assert go.wait(60)
+        return real(supervised)
+
+    monkeypatch.setattr(view_map, "distances", slow)
     shown = watch.view_panel.map
-    np.testing.assert_array_equal(shown._away, view_map.distances(np.concatenate([own, more])))
+    wanted = np.stack([np.linspace(-40, 40, 3000), np.linspace(-180, 180, 3000), np.zeros(3000)], 1).astype(np.float32)
+    watch.session.take_preview(replace(watch.session.snapshot, supervised=wanted, version=70))
+    qtbot.waitUntil(lambda: bool(on), timeout=60_000)
+    assert threading.main_thread() not in on and len(shown._supervised) < 3000
+    go.set()
+    qtbot.waitUntil(lambda: len(shown._supervised) == 3000, timeout=60_000)
+    np.testing.assert_allclose(shown._away, real(wanted), atol=1e-9)
 
 
 def test_thousands_of_supervised_directions_are_a_point_for_every_place_on_the_map(watch):

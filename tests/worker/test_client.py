@@ -197,6 +197,10 @@ def test_events_that_got_lost_on_the_way_are_read_from_their_file(tmp_path):
     for n in (0, 3, 3, 4):
         client._on_event({"type": "event", "n": n, "event": said[n]})
     assert window.events == said
+    assert runs.read_events(tmp_path, 3) == said[3:] and runs.read_events(tmp_path, 9) == []
+    (tmp_path / runs.EVENTS).write_text("no JSON\n" * 5)  # what is known is not read again
+    client._catch_up(None)
+    assert window.events == said
     assert runs.steps_told(said) == 5
     resumed = [*said, {"event": "Step", "stage": "joint", "step": 1}, {"event": "Step", "stage": "lift", "step": 4}]
     assert runs.steps_told(resumed[:-1]) == 6 and runs.steps_told(resumed) == 4  # told again from a checkpoint
