@@ -9,8 +9,6 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from genmojo_core.effects.texts import Said
-
 
 @dataclass(frozen=True)
 class Event:
@@ -69,7 +67,7 @@ class EffectChanged(Event):
     effect: str
     on: bool
     reason: str
-    said: tuple[Said, ...] = ()
+    said: tuple[tuple[str, Mapping[str, Any]], ...] = ()
 
 
 @dataclass(frozen=True)
