@@ -22,6 +22,7 @@ class LossWeights:
     depth_order: float = 0.05  # hinge between overlapping objects' depths
     flow: float = 0.05  # L1 of splatted flow, in units of the image diagonal x 100
     tracks: float = 0.5  # robust distance of carried points to their tracks
+    hull: float = 1.0  # distance of an object's Gaussians to where its masks allow it, in units of 1 % of the diagonal
     rigidity: float = 1.0  # neighbours move rigidly (corrected rotation)
     rotation: float = 0.1  # neighbours turn alike
     local_scale: float = 0.5  # neighbours change size alike

@@ -18,7 +18,8 @@ def add_commands(commands: Any) -> None:
                         "that lie there already are kept")  # fmt: skip
     ablate.add_argument("--preset", default="draft")
     ablate.add_argument("--size", type=int, default=128, metavar="PX", help="short side while optimising")
-    ablate.add_argument("--budget", type=seconds, default=120.0, metavar="120s", help="per variant and seed")
+    ablate.add_argument("--budget", type=seconds, default=120.0, metavar="120s", help="CPU time per variant "
+                        "and seed, so that what else the machine does cuts no run short")  # fmt: skip
     ablate.add_argument("--seeds", type=int, default=3, metavar="N", help="runs per variant")
     ablate.add_argument("--variants", type=names, default=(), metavar="a,b", help="full, no_joint, no_prior, "
                         "scene_prior, no_labels, worse_depth (default: these), and other methods as configurations of "
@@ -41,7 +42,7 @@ def run_ablate(args: argparse.Namespace) -> dict[str, Any]:
         raise GenmojoError("argument", "at least one run per variant is needed", "--seeds")
     folder = Path(args.output)
     check_writable(folder / "ablation.json")
-    config = preset(args.preset, short_side=args.size, budget_seconds=args.budget, prior=args.prior,
+    config = preset(args.preset, short_side=args.size, budget_seconds=args.budget, clock="cpu", prior=args.prior,
                     device=args.device)  # fmt: skip
     chosen = args.variants or tuple(ablation.VARIANTS)
     plan = ablation.Plan(chosen, tuple(range(args.seeds)), config)

@@ -78,10 +78,13 @@ def novel_scores(
 ) -> dict[str, Any]:
     """Shape and colour of the objects from unseen views, apart (BLENDER.md).
 
-    Returns {"novel": {"<elev>_<azim>": {iou, psnr_inside, psnr_white, ssim_white}}, "novel_iou", "novel_psnr_inside":
-    means over views, "novel_cameras": "given" or "orbit"}; {} if the truth has no views. iou compares silhouettes
-    (alpha > 0.5), psnr_inside colours inside their intersection, *_white the whole picture on white. The truth's own
-    cameras are used if the scene was given depth and cameras; else the scene's orbit about its own middle.
+    Returns {"novel": {"<elev>_<azim>": {iou, psnr_inside, psnr_levelled, psnr_union, psnr_white, ssim_white}},
+    "novel_iou", "novel_psnr_inside": means over views, "novel_cameras": "given" or "orbit"}; {} if the truth has no
+    views. iou compares silhouettes (alpha > 0.5), psnr_inside colours inside their intersection, psnr_levelled the same
+    after one factor of brightness per picture (objects rendered without their room are lit by more of the sky than in
+    the clip, which no frame tells), psnr_union colours on white in either silhouette, *_white the whole picture on
+    white. The truth's own cameras are used if the scene was given depth and cameras; else the scene's orbit about its
+    own middle.
     """
     novel = _novel_truth(truth_path)
     if novel is None:
@@ -141,10 +144,13 @@ def _novel_row(scene: BakedScene, t: int, view: View, path: Path) -> dict[str, f
     picture = render_frame(scene, t, view, Look(objects_only=True))
     both = (alpha > _SILHOUETTE) & (picture.alpha > _SILHOUETTE)
     straight = np.clip(picture.color / np.maximum(picture.alpha, 1e-6)[..., None], 0, 1)
+    wanted = color / np.maximum(alpha, 1e-6)[..., None]
+    level = float((straight * wanted)[both].sum() / max(float(np.square(straight[both]).sum()), 1e-6))
     on_white = color + (1 - alpha)[..., None]
     return {
         "iou": iou(alpha > _SILHOUETTE, picture.alpha > _SILHOUETTE),
-        "psnr_inside": psnr(straight, color / np.maximum(alpha, 1e-6)[..., None], both),
+        "psnr_inside": psnr(straight, wanted, both),
+        "psnr_levelled": psnr(level * straight, wanted, both),
         "psnr_union": psnr(picture.on(), on_white, (alpha > _SILHOUETTE) | (picture.alpha > _SILHOUETTE)),
         "psnr_white": psnr(picture.on(), on_white),
         "ssim_white": ssim(picture.on(), on_white),

@@ -7,8 +7,11 @@ gradient, zero where nothing is to be compared. All pixels that are void or held
 
 from __future__ import annotations
 
+import cv2
+import numpy as np
 import torch
 from torch import Tensor
+from torch.nn import functional
 
 from genmojo_core.optimise.targets import FrameTargets
 from genmojo_core.render.loss_limits import ALPHA_FLOOR, FEWEST, FLOW_LIMIT, GUESSED_DEPTH, LABEL_FLOOR, SHOWN
@@ -18,6 +21,7 @@ from genmojo_core.scene import safemath
 from genmojo_core.scene.scene4d import Layout
 
 REACHED = 1e-3  # coverage by which an object has reached a pixel
+HULL_MARGIN = 1.0  # pixels beyond a mask that are as good as on it
 
 
 def masked_mean(values: Tensor, weight: Tensor, beyond: float = 0.0) -> Tensor:
@@ -143,6 +147,40 @@ def track_loss(pixels: Tensor, expected: Tensor, confidence: Tensor, diagonal: f
     distance = safemath.safe_norm(pixels - expected) / (0.01 * diagonal)
     robust = torch.where(distance < 1.0, 0.5 * distance * distance, distance - 0.5)
     return masked_mean(robust, confidence)
+
+
+def hull_map(target: FrameTargets, k: int) -> Tensor | None:
+    """How far every pixel (H, W) is from the nearest one that object k may show at, in 1 % of the diagonal.
+
+    It may show on its own mask, be hidden by another's, and nobody knows about pixels that are void or held out. None
+    where its mask is empty: then the masks do not tell where it is.
+    """
+    if ("hull", k) not in target.kept:
+        own = (target.labels == k + 1) & (target.seen > 0)
+        excluded = (target.labels == 0) & (target.seen > 0)
+        far = None
+        if bool(own.any()):
+            pixels = cv2.distanceTransform(excluded.numpy().astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
+            far = torch.from_numpy(np.maximum(pixels - HULL_MARGIN, 0.0)) / (0.01 * target.diagonal)
+        target.kept["hull", k] = far
+    return target.kept["hull", k]
+
+
+def hull_loss(pixels: Tensor, depths: Tensor, opacities: Tensor, far: Tensor) -> Tensor:
+    """Mean distance of an object's Gaussians to where it may show, `far` of `hull_map`; outside the picture 0.
+
+    Coverage pulls at a Gaussian only where its own rim meets the mask's; this takes it by the hand wherever it is, as
+    the hull of all silhouettes does.
+
+    Args:
+        pixels: (N, 2) raster centres. depths: (N,). opacities: (N,) what each counts.
+    """
+    size = torch.tensor([far.shape[1], far.shape[0]], dtype=pixels.dtype)
+    inside = ((pixels > 0) & (pixels < size)).all(dim=1) & (depths > 0)
+    grid = torch.where(inside[:, None], 2.0 * pixels / size - 1.0, torch.zeros_like(pixels))
+    value = functional.grid_sample(far.to(pixels)[None, None], grid[None, None], padding_mode="border",
+                                   align_corners=False)[0, 0, 0]  # fmt: skip
+    return (value * inside * opacities.detach()).mean()
 
 
 def order_loss(

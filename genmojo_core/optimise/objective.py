@@ -102,6 +102,8 @@ class Objective:
             inside = target.labels > 0
             if bool(inside.any()):
                 foreground.append((t, -10.0 * math.log10(max(float(squared[inside].mean()), 1e-10))))
+        if self.weights.hull > 0:
+            terms["hull"] = self._hull_term(frames, states)
         if deform:
             for name, value in self._motion_terms(frames, states, generator).items():
                 terms[name] = value
@@ -203,6 +205,20 @@ class Objective:
         if self.tracks:
             terms["tracks"] = self._track_term(frames)
         return terms
+
+    def _hull_term(self, frames: list[int], states: States) -> Tensor:
+        """Objects stay inside the hull of their silhouettes; mean over frames and objects."""
+        total = self.scene.w2c.sum() * 0.0
+        for t in frames:
+            for k, (model, state) in enumerate(zip(self.scene.objects, states[t], strict=True)):
+                far = losses.hull_map(self.targets.frame(t), k)
+                if far is None:
+                    continue
+                pixels, depths = safemath.project(state.means, self.scene.w2c[t], self.scene.K[t],
+                                                  self.scene.cameras.near)  # fmt: skip
+                value = losses.hull_loss(pixels, depths, model.gaussians.opacities(), far)
+                total = total + value / (len(frames) * len(self.scene.objects))
+        return total
 
     def _track_term(self, frames: list[int]) -> Tensor:
         width, height = self.scene.cameras.size

@@ -89,6 +89,7 @@ def novel(name: str) -> Callable[[Bench], list[Check]]:
         checks = [
             Check("±30 IoU", ours["±30"]["iou"], 0.85),
             Check("inside", ours["±30"]["psnr_inside"], NEAR[name]),
+            Check("inside, brightness levelled", ours["±30"]["psnr_levelled"]),
         ]
         for group in ("±90", "180"):
             checks += [
@@ -110,7 +111,8 @@ def novel(name: str) -> Callable[[Bench], list[Check]]:
 
 def means(views: dict[str, dict[str, float]], names: tuple[str, ...]) -> dict[str, float]:
     """Mean figures over some views."""
-    return {k: sum(views[n][k] for n in names) / len(names) for k in ("iou", "psnr_inside", "psnr_union")}
+    keys = ("iou", "psnr_inside", "psnr_levelled", "psnr_union")
+    return {k: sum(views[n][k] for n in names) / len(names) for k in keys}
 
 
 def crossing(bench: Bench) -> list[Check]:

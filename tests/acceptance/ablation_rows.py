@@ -1,7 +1,7 @@
 """Rows of issue 6's table: tracks from the scene alone and the order of the ablation, against the Blender clips' truth.
 
 Scenes and ablation rows are kept in the table's folder, and used again only by the program that made them. An ablation
-is 18 runs of two minutes at most, each kept as it ends; a run takes 40 (no prior) to 110 CPU seconds.
+is 18 runs of two minutes of CPU time at most, each kept as it ends; a run takes 30 (no prior) to 110 seconds.
 """
 
 from __future__ import annotations

@@ -144,6 +144,15 @@ def test_shape_and_colour_are_scored_apart(scene, clip, truth_path):
     assert half["novel_iou"] < 0.75 and half["novel_psnr_inside"] > grey["novel_psnr_inside"] + 10
 
 
+def test_another_light_is_told_from_other_colours(scene, clip, truth_path):
+    """Every colour 20 % darker: one factor of brightness makes up for it; grey in place of colours stays wrong."""
+    darker = truth.novel_scores(replace(scene, dc=0.8 * scene.dc - 0.1 / SH_C0), clip, truth_path)
+    for row in darker["novel"].values():
+        assert row["psnr_inside"] < 30 and row["psnr_levelled"] > 38
+    grey = truth.novel_scores(replace(scene, dc=scene.dc * 0), clip, truth_path)
+    assert all(row["psnr_levelled"] < 18 for row in grey["novel"].values())
+
+
 def test_tracks_of_itself(scene, clip, truth_path):
     """Only points visible in frame 0 are asked; all figures of the contract are there."""
     found = truth.track_scores(scene, clip, truth_path)

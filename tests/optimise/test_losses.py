@@ -124,3 +124,29 @@ def test_held_out_blocks_lie_in_the_foreground_and_repeat() -> None:
     assert 0.05 < held.sum() / (masks > 0).sum() < 0.16
     assert not held[masks == 0].any()
     assert not held_out_blocks(masks, 0.0, 0).any()
+
+
+def test_gaussians_beside_their_silhouette_are_drawn_to_it_from_afar() -> None:
+    """Object 1 fills rows 4 to 13, columns 3 to 14; object 2 may hide it, void may hold it, the rest may not."""
+    seen = torch.ones(H, W)
+    seen[22:, :] = 0.0
+    far = losses.hull_map(target(seen), 0)
+    assert far is not None
+    unit = 0.01 * float(np.hypot(H, W))
+    assert float(far[6, 5]) == 0.0  # its own mask
+    assert float(far[18, 25]) == 0.0  # the other's
+    assert float(far[23, 2]) == 0.0  # void
+    assert float(far[6, 15]) == 0.0  # its rim
+    assert float(far[5, 16]) == pytest.approx((2 - losses.HULL_MARGIN) / unit, rel=1e-5)
+    places = torch.tensor([[16.5, 5.5], [6.0, 8.0], [-5.0, 6.5], [16.5, 5.5]], requires_grad=True)
+    depths, opacities = torch.tensor([2.0, 2.0, 2.0, -1.0]), torch.ones(4)
+    loss = losses.hull_loss(places, depths, opacities, far)
+    loss.backward()
+    assert places.grad is not None
+    assert float(loss.detach()) > 0.0
+    assert float(places.grad[0, 0]) > 0.0  # downhill is to the left
+    assert not places.grad[1:].any()  # inside, outside the picture, behind the camera
+
+
+def test_an_empty_mask_does_not_tell_where_an_object_is() -> None:
+    assert losses.hull_map(target(), 2) is None
