@@ -175,7 +175,7 @@ def hull_loss(pixels: Tensor, depths: Tensor, opacities: Tensor, far: Tensor) ->
     Args:
         pixels: (N, 2) raster centres. depths: (N,). opacities: (N,) what each counts.
     """
-    size = torch.tensor([far.shape[1], far.shape[0]], dtype=pixels.dtype)
+    size = pixels.new_tensor([far.shape[1], far.shape[0]])
     inside = ((pixels > 0) & (pixels < size)).all(dim=1) & (depths > 0)
     grid = torch.where(inside[:, None], 2.0 * pixels / size - 1.0, torch.zeros_like(pixels))
     value = functional.grid_sample(far.to(pixels)[None, None], grid[None, None], padding_mode="border",
