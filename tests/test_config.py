@@ -30,6 +30,14 @@ def test_all_faults_are_told_together() -> None:
     assert "\n" not in caught.value.sentence()
 
 
+def test_a_draft_of_rigid_objects_has_more_steps_unless_steps_are_asked_for() -> None:
+    draft = preset("draft")
+    assert draft.joint_steps_of(bends=False) > draft.joint_steps_of(bends=True) == draft.joint_steps
+    assert preset("draft", joint_steps=10).joint_steps_of(bends=False) == 10
+    assert preset("draft", joint_steps=10, rigid_steps=15).joint_steps_of(bends=False) == 15
+    assert preset("full").joint_steps_of(bends=False) == preset("full").joint_steps
+
+
 def test_goals_are_read_as_a_person_writes_them() -> None:
     assert goal_of("") is None
     assert goal_of("psnr>=26") == goal_of(" PSNR >= 26.0 dB ") == Goal("psnr", 26.0)

@@ -201,7 +201,8 @@ def foretold(work: Work, clip: Difficulty, config: RunConfig, factor: float, mod
         seconds = budget
     else:
         lift = min(config.lift_steps, left / cost["lift"])
-        joint = min(config.joint_steps, max(left - lift * cost["lift"], 0.0) / cost["joint"])
+        steps = config.joint_steps_of(work.bends or work.frames == 1)
+        joint = min(steps, max(left - lift * cost["lift"], 0.0) / cost["joint"])
         seconds = motion + settle + lift * cost["lift"] + joint * cost["joint"]
     features = decibel_features(clip, work, (lift, joint), config.gaussians_per_object)
     limited = seconds >= 0.99 * budget

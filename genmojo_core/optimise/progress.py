@@ -68,7 +68,6 @@ class Progress:
     def __init__(self, config: RunConfig, stages: list[Stage], frames: int) -> None:
         self.config, self.stages = config, stages
         self.step = 0
-        self.total = max(1, sum(s.steps for s in stages))
         self.curve: list[dict[str, float]] = []
         self.window = max(8, frames)
         self.curve_path: Path | None = None
@@ -81,6 +80,11 @@ class Progress:
         self._pace: Pace | None = None
         self._goal = goal_of(config.until)
         self._rule = StopRule()
+
+    @property
+    def total(self) -> int:
+        """Steps of all stages."""
+        return max(1, sum(s.steps for s in self.stages))
 
     def begin(self, stage: Stage) -> int:
         """Enter a stage; returns the step within it to go on from (not 0 after a resume)."""
@@ -145,7 +149,6 @@ class Progress:
         fitted = self._pace.refit(stage, done, now)
         self.stages = [fitted if known is stage else known for known in self.stages]
         self._stage = fitted
-        self.total = max(1, sum(s.steps for s in self.stages))
         return fitted
 
     def fraction(self, clock: Clock) -> float:

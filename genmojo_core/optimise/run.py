@@ -103,7 +103,7 @@ class Run:
         self.run_dir = None if run_dir is None else Path(run_dir)
         self.resume = resume
         self.clock = Clock(config.clock)
-        self.progress = Progress(config, stages(config, len(clip)), len(clip))
+        self.progress = Progress(config, stages(config, len(clip), plan.on("non_rigid_motion")), len(clip))
         self.progress.curve_path = curve_path or (None if self.run_dir is None else self.run_dir / CURVE)
         self.motions: list[ObjectMotion] | None = None
         self.stopped = False
@@ -228,6 +228,7 @@ class Run:
         motions = with_annotated(self.clip, out_of_view(self.clip, motions))
         planned, self.plan = self.plan, call_in.bending(self.clip, self.plan, motions, self.config.motion_bases)
         if self.plan is not planned:
+            self.progress.stages = stages(self.config, len(self.clip), True)
             yield call_in.changed(self, "non_rigid_motion")
         lifted = lift(self.clip, self.plan, self.config, motions)
         for message in lifted.warnings:

@@ -28,9 +28,10 @@ class Stage:
     deform: bool
 
 
-def stages(config: RunConfig, frames: int) -> list[Stage]:
+def stages(config: RunConfig, frames: int, bends: bool) -> list[Stage]:
     """The stages of a run; a still has no motion, so its joint stage only refines."""
-    return [Stage("lift", config.lift_steps, False), Stage("joint", config.joint_steps, frames > 1)]
+    steps = config.joint_steps_of(bends or frames == 1)
+    return [Stage("lift", config.lift_steps, False), Stage("joint", steps, frames > 1)]
 
 
 class Pace:

@@ -38,7 +38,8 @@ def forecast(effects: Iterable[Mapping[str, Any]], sizes: Sizes, config: RunConf
     on = [effect for effect in effects if effect["on"]]
     base_ms = sizes.views * (sizes.gaussians * SPLAT_MS + sizes.pixels * PIXEL_MS + 0.2 * sizes.gaussians * FIELD_MS)
     step_ms = base_ms + sum(float(effect["ms_per_step"]) for effect in on)
-    seconds = _START_SECONDS + (config.joint_steps + 0.5 * config.lift_steps) * step_ms / 1000
+    steps = config.joint_steps_of(sizes.frames == 1 or any(effect["name"] == "non_rigid_motion" for effect in on))
+    seconds = _START_SECONDS + (steps + 0.5 * config.lift_steps) * step_ms / 1000
     seconds = min(seconds, config.budget_seconds)
     pixels = sizes.pixels * sizes.frames * _VALUES_PER_PIXEL / 1e6
     return Forecast(

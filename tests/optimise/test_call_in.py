@@ -102,12 +102,15 @@ def test_bending_that_was_left_out_is_called_in(monkeypatch: pytest.MonkeyPatch)
     clip = complete(made)
     solved = initial_motion(clip)
     monkeypatch.setattr(run_module, "initial_motion", lambda *_, **__: solved)
-    run = wrongly_off(clip, "non_rigid_motion", joint_steps=5)
+    run = wrongly_off(clip, "non_rigid_motion", joint_steps=5, rigid_steps=8)
     events = list(run)
     assert ("non_rigid_motion", True) in calls(events)
+    assert [stage.steps for stage in run.progress.stages] == [6, 5]  # not those of a rigid object any more
     assert all(o.field is not None for o in run.scene.objects)
     assert run.plan.get("non_rigid_motion").settings["motion_bases"] >= 1
-    assert calls(list(small_run(clip, {"non_rigid_motion": False}, joint_steps=5))) == []
+    rigid = small_run(clip, {"non_rigid_motion": False}, joint_steps=5, rigid_steps=8)
+    assert calls(list(rigid)) == []
+    assert [stage.steps for stage in rigid.progress.stages] == [6, 8]
 
 
 def test_still_light_is_not_called_in_by_noise() -> None:
