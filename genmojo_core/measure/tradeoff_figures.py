@@ -128,13 +128,22 @@ def parts_table(rows: Sequence[Row]) -> list[dict[str, Any]]:
                 "kind": group[0]["kind"],
                 "on": sign > 0,
                 "runs": len(pairs),
-                "ms": float(np.mean([sign * (_step_ms(a) - _step_ms(b)) for a, b in pairs])),
+                "ms": float(np.mean([_cost(b["key"], *((a, b) if sign > 0 else (b, a))) for a, b in pairs])),
                 "mb": float(np.mean([sign * (a["model_mb"] - b["model_mb"]) for a, b in pairs])),
                 "gain": {key: float(np.mean(v)) for key, v in gains.items() if v},
                 "spread": {key: float(np.std(v)) for key, v in gains.items() if len(v) > 1},
             }
         )
     return sorted(entries, key=lambda e: (e["kind"], -e["ms"]))
+
+
+def _cost(key: str, there: Row, without: Row) -> float:
+    """CPU ms a step of the part that a trial is about: as its run took it out of one step, else between two runs.
+
+    Two runs also differ by what else the machine did meanwhile. Loss terms are not measured within a run.
+    """
+    within = there.get("costs", {}).get(key.split("-")[1])
+    return float(_step_ms(there) - _step_ms(without) if within is None else within)
 
 
 def base_step_ms(rows: Sequence[Row]) -> float | None:

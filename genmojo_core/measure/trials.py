@@ -134,6 +134,7 @@ def _watched(run: Run, scorer: Scorer | None, hear: Callable[[Event], None]) -> 
         "seconds": end.seconds, "cpu_seconds": end.cpu_seconds, "steps": end.step, "reason": end.reason,
         "gaussians": len(run.scene), "moving": sum(len(o.gaussians) for o in run.scene.objects),
         "stages": _lengths(stages, end.seconds, end.cpu_seconds), "model_mb": model_megabytes(run), "notes": notes,
+        "costs": {str(e.name): e.measured_ms for e in run.plan.effects if e.measured_ms is not None},
         "curve": run.progress.curve, "psnr_held_out": run.progress.psnr(), "ssim_held_out": run.progress.ssim(),
         "psnr_held_frames": run.progress.curve[-1].get("psnr_held_frames", 0.0) if run.progress.curve else 0.0,
     }  # fmt: skip

@@ -87,6 +87,14 @@ def test_costs_and_gains_are_with_minus_without_seed_by_seed():
     assert found["ssim"]["kind"] == "loss" and found["ssim"]["gain"]["psnr"] == pytest.approx(-0.25)
 
 
+def test_what_a_run_took_out_of_one_step_counts_before_the_difference_of_two_runs():
+    base = row("base-0", "effect", "as planned", 25.0, 80.0, costs={"flow": 7.0})
+    without = row("effect-flow-0", "effect", "without flow", 24.5, 200.0, costs={})
+    added = row("effect-shading-0", "effect", "with shading", 25.5, 20.0, costs={"flow": 7.0, "shading": 2.0})
+    found = {e["title"]: e["ms"] for e in tradeoff_figures.parts_table([base, without, added])}
+    assert found == {"flow": 7.0, "shading": 2.0}
+
+
 def test_auto_is_compared_with_what_stood_at_its_moment():
     first, second = tradeoff_figures.against_auto(rows())
     assert first["others"]["draft"]["lead"] == pytest.approx(2.0)
