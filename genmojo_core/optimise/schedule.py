@@ -94,9 +94,10 @@ def make_optimiser(scene: Scene4D, config: RunConfig) -> torch.optim.AdamW:
     Decay on opacity logits and placements would shrink them for no reason (METHOD.md section 2).
     """
     groups: dict[str, list[torch.nn.Parameter]] = {}
+    rigid = {id(model.gaussians.means) for model in scene.objects if model.field is None}
     for name, parameter in scene.named_parameters():
         if parameter.requires_grad:
-            groups.setdefault(_kind(name), []).append(parameter)
+            groups.setdefault("rigid_means" if id(parameter) in rigid else _kind(name), []).append(parameter)
     rows = [group_of(kind, members, config) for kind, members in groups.items()]
     return torch.optim.AdamW(rows, eps=1e-15, betas=(0.9, 0.99), fused=True)
 
@@ -110,6 +111,8 @@ def group_of(kind: str, members: list[torch.nn.Parameter], config: RunConfig) ->
 
 def start_rate(kind: str, rates: LearningRates) -> float:
     """First learning rate of a group of parameters; the frame's gain is a change of colour."""
+    if kind == "rigid_means":
+        return rates.means * rates.rigid_means
     return float(getattr(rates, "delta_color" if kind == "log_gain" else kind))
 
 

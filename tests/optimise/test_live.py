@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from genmojo_core import events
+from genmojo_core.config import LearningRates
 from genmojo_core.errors import GenmojoError
 from genmojo_core.optimise import checkpoint, parameters
 from genmojo_core.optimise.progress import Clock
@@ -38,6 +39,20 @@ def test_live_gaussians_are_the_baked_ones():
         np.testing.assert_allclose(same, 1, atol=1e-5)
         np.testing.assert_array_equal(live.uid, scene.uid)
         np.testing.assert_array_equal(live.object_id, np.array([o.id for o in scene.objects])[baked.object_index])
+
+
+def test_positions_of_rigid_objects_have_a_rate_of_their_own_in_proportion_to_the_others():
+    rates = LearningRates(means=2e-3, rigid_means=0.25)
+    run = small_run(small_clip(frames=3), {"non_rigid_motion": False}, rates=rates)
+    until_step(run, 1)
+
+    def rate() -> float:
+        means = run.scene.objects[0].gaussians.means
+        return next(g["start_lr"] for g in run.optimiser.param_groups if any(p is means for p in g["params"]))
+
+    assert rate() == pytest.approx(5e-4)
+    run.change("rates.means", 4e-3)
+    assert rate() == pytest.approx(1e-3)
 
 
 def test_changes_hold_from_the_next_step_on_and_are_recorded():
