@@ -14,10 +14,11 @@ import sys
 from effect_rows import full, misses, right, shared, simple
 from hard_case_rows import coverage, hard, mutations, soak
 from table import Rows, main
-from tradeoff_rows import REPORTS, forecasts
+from tradeoff_rows import AUTO, REPORTS, forecasts
 
 ROWS: Rows = {
     **REPORTS,
+    **AUTO,
     "forecast": ("forecasts, each clip by a model of the others", forecasts),
     "shared": ("evidence and decisions, shared clips", shared),
     "right": ("decisions on made clips", right),
