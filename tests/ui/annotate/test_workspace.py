@@ -46,7 +46,10 @@ def test_the_whole_path_with_mouse_and_keys(workspace, qtbot, tmp_path, monkeypa
         np.testing.assert_allclose(
             session.annotation.track(track).xy[0], (x, y), atol=0.5 / workspace.canvas.mapping.zoom
         )
+    said = []
+    session.said.connect(said.append)
     seed(workspace, qtbot)
+    assert said[-1] == f"{len(places)} tracks are seeded.", "not that they are to be seeded now"
     workspace.show_step(2)
 
     track, t = next(iter(session.annotation.tracks)), 6
