@@ -9,6 +9,7 @@ import torch
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.events import Checkpointed, Event, Failed, Finished, Preview, StageStarted, Step
+from genmojo_core.optimise import run as run_module
 from genmojo_core.optimise.schedule import wear_factor
 from tests.optimise.small_runs import small_clip, small_run
 
@@ -77,7 +78,9 @@ def test_the_same_seed_gives_the_same_scene_bit_for_bit(clip: Clip) -> None:
     assert np.array_equal(first.bake().xyz, second.bake().xyz)
 
 
-def test_resume_goes_on_with_the_same_losses(clip: Clip, tmp_path) -> None:
+def test_resume_goes_on_with_the_same_losses(clip: Clip, tmp_path, monkeypatch) -> None:
+    """Measuring what effects cost, which a resumed run does anew, changes nothing either."""
+    monkeypatch.setattr(run_module, "COST_STEP", 2)
     whole = [s.loss for s in steps(list(small_run(clip, BENDING, tmp_path / "whole")))]
     first = small_run(clip, BENDING, tmp_path / "cut")
     seen = []
@@ -90,6 +93,7 @@ def test_resume_goes_on_with_the_same_losses(clip: Clip, tmp_path) -> None:
     second = small_run(clip, BENDING, tmp_path / "cut", resume=True)
     seen += [s.loss for s in steps(list(second))]
     assert seen == pytest.approx(whole, rel=1e-5)
+    assert second.plan.get("non_rigid_motion").measured_ms > 0
 
 
 def test_stop_keeps_the_work(clip: Clip, tmp_path) -> None:
