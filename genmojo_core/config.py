@@ -101,11 +101,11 @@ class RunConfig:
 
 # draft: 224 px, because frames kept at 128 px and enlarged to 256 reach 24.6 dB at best on the clip "crossing".
 # Positions of rigid objects learn half as fast: else they take up in few steps what the poses are off by (blender-cross
-# 29.3 -> 30.0 dB and 0.71 -> 0.58 px, with rigid_steps; the bending people of "crossing" would lose 0.2 dB by it).
+# 29.3 -> 30.0 dB and 0.71 -> 0.58 px, with 360 steps; the bending people of "crossing" would lose 0.2 dB by it).
 PRESETS: dict[str, RunConfig] = {
     "draft": RunConfig(
         preset="draft", short_side=224, gaussians_per_object=2000, background_gaussians=14000, lift_steps=60,
-        joint_steps=240, rigid_steps=360, settle_steps=60, frames_per_step=2, budget_seconds=70.0, plane_resolution=24,
+        joint_steps=240, rigid_steps=300, settle_steps=60, frames_per_step=2, budget_seconds=70.0, plane_resolution=24,
         plane_channels=8, densify_every=40, rates=LearningRates(rigid_means=0.5),
     ),
     "standard": RunConfig(prior="embedded"),
