@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from itertools import count as counter
 
 import numpy as np
@@ -45,14 +45,14 @@ def run_jobs(job: Callable[[int], object], count: int) -> None:
     Every thread takes the next number as soon as it is free, so one that wakes late costs nothing but its own share.
     Raises what a job raised, after all threads have stopped.
     """
-    helpers = 0 if _alone() else min(get_threads(), count) - 1
+    helpers = min(helpers_at_hand(), count - 1)
     numbers = counter()
 
     def work() -> None:
         while (index := next(numbers)) < count:
             job(index)
 
-    asked = [_pool().submit(work) for _ in range(helpers)]
+    asked = [submit(work) for _ in range(helpers)]
     try:
         work()
     finally:
@@ -81,9 +81,14 @@ def run_whole(job: Callable[[int], object], count: int) -> None:
     run_jobs(lambda index: job(whole + index), count - whole)
 
 
-def _alone() -> bool:
-    """True where the calling thread has no helpers: there are none, or each has a large job of its own."""
-    return get_threads() == 1 or getattr(_local, "alone", False)
+def helpers_at_hand() -> int:
+    """Threads that the calling one may ask for help: 0 where there are none, or each has a large job of its own."""
+    return 0 if getattr(_local, "alone", False) else get_threads() - 1
+
+
+def submit(work: Callable[[], None]) -> Future[None]:
+    """Have a helper do something as soon as one is free."""
+    return _pool().submit(work)
 
 
 def run_ranges(kernel: Callable[[int, int], object], size: int, chunk: int) -> None:
@@ -91,7 +96,7 @@ def run_ranges(kernel: Callable[[int, int], object], size: int, chunk: int) -> N
 
     So the result must not depend on the pieces. One call asks for the interpreter's lock once.
     """
-    chunk = max(size, 1) if _alone() else chunk
+    chunk = chunk if helpers_at_hand() else max(size, 1)
     run_jobs(lambda index: kernel(index * chunk, min((index + 1) * chunk, size)), -(-size // chunk))
 
 

@@ -6,7 +6,8 @@ import numpy as np
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.conventions import axis_angle_matrix
-from genmojo_core.render.cpu.project import Ellipses, lens_of, project_range
+from genmojo_core.kernels.stage import alone
+from genmojo_core.render.cpu.project import Ellipses, lens_of, project_splats
 from genmojo_core.render.cpu.rasterize import Cloud
 from genmojo_core.render.rasterizer import Splats
 
@@ -112,8 +113,13 @@ def _median_radius(means: np.ndarray, quats: np.ndarray, scales: np.ndarray, vie
     count = len(means)
     arrays = (means, quats, scales, np.ones(count))
     cloud = Cloud(*(np.ascontiguousarray(a, dtype=np.float32) for a in arrays))
-    out = Ellipses(np.zeros((count, 6), np.float32), np.zeros(count, np.float32), np.zeros((count, 4), np.int32))
-    project_range(0, count, lens_of(view), cloud, out)
+    out = Ellipses(
+        np.zeros((count, 6), np.float32),
+        np.zeros(count, np.float32),
+        np.zeros((count, 4), np.int32),
+        np.zeros(2, np.int64),
+    )
+    project_splats(alone(count), lens_of(view), cloud, out)
     seen = out.box[:, 0] <= out.box[:, 1]
     a, b, c = out.geometry[seen, 2] * -2, -out.geometry[seen, 3], out.geometry[seen, 4] * -2
     smallest = (a + c) / 2 - np.sqrt(((a - c) / 2) ** 2 + b**2)

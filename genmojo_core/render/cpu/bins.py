@@ -4,6 +4,9 @@ The splats drawn are sorted once by depth (`rank` = place in that order); a coun
 upwards is stable, so every tile lists its splats front to back. An entry is one splat on one tile. Its `slot` counts
 the tiles of a splat one after the other (first_slot[rank] + place of the tile in the splat's rectangle of tiles), so
 that backward finds all gradient rows of a splat side by side, whatever thread wrote them.
+
+Two stages: one thread sorts while another counts the entries of the tiles, which asks for no order; then some threads
+hand the entries out, each in a band of tile rows, while others copy the records into depth order.
 """
 
 from __future__ import annotations
@@ -17,15 +20,13 @@ from genmojo_core.kernels.buffers import take
 from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.kernels.scalars import larger, smaller
 from genmojo_core.kernels.simd import prefetch
-from genmojo_core.kernels.threads import get_threads, run_ranges
-from genmojo_core.render.cpu.project import GEOMETRY, Ellipses, Lens
+from genmojo_core.kernels.stage import Stage, begin, claim, meet
+from genmojo_core.render.cpu.project import DRAWN, ENTRIES, GEOMETRY, SHIFT, TILE, Ellipses, Lens
 
-TILE = 16  # pixels
-SHIFT = 4  # TILE as a power of two
 ENTRY_LIMIT = 2**24  # entries of one view: 1 GiB of gradient rows
-FEW = 2**16  # entries
 RADIX_BITS, DIGITS = 11, 3  # 33 bits
 AHEAD = 8  # splats
+SORT, COUNT, PIECES = 0, 1, 2  # of the first stage
 
 
 class Bins(NamedTuple):
@@ -41,14 +42,50 @@ class Bins(NamedTuple):
     tiles_y: int
 
 
-def depth_order(depth: np.ndarray, box: np.ndarray) -> np.ndarray:
-    """Indices of the splats that are drawn, by rising depth, ties by index: LSD radix sort of the float's bits.
+class Sorting(NamedTuple):
+    """What binning needs besides the bins."""
 
-    Depths are positive, so their bits as unsigned integers rise with them.
+    keys: np.ndarray  # (N,) uint32 bits of the depths
+    other: np.ndarray  # (M,) int64 of any content
+    starts: np.ndarray  # (DIGITS, digits + 1) int64, zero at first
+    following: np.ndarray  # (T,) int64: the entry of each tile that is handed out next
+
+
+class Records(NamedTuple):
+    """What a pass reads of the splats, by rank, and where it comes from."""
+
+    features: np.ndarray  # (N, C) float32
+    columns: np.ndarray  # (slots,) int64: the feature of each slot, -1: zero; the first is depth's
+    table: np.ndarray  # (M, 6 + slots) float32
+    hits: np.ndarray  # (E,) uint32 by slot: cleared along with the records
+
+
+def empty_bins(lens: Lens, ellipses: Ellipses) -> tuple[Bins, Sorting]:
+    """Arrays for the splats that a view has, still to be filled: tile_start is 0, the rest of any content.
+
+    Raises GenmojoError("budget") where splats cover so many tiles that the gradients would not fit into memory.
     """
-    order, other = take(depth.shape, np.int64), take(depth.shape, np.int64)
+    drawn, entries = int(ellipses.totals[DRAWN]), int(ellipses.totals[ENTRIES])
+    if entries > ENTRY_LIMIT:
+        first_x, last_x, first_y, last_y = (ellipses.box.astype(np.int64) >> SHIFT).T
+        seen = ellipses.box[:, 0] <= ellipses.box[:, 1]
+        tiles = np.where(seen, (last_x - first_x + 1) * (last_y - first_y + 1), 0)
+        raise GenmojoError(
+            "budget",
+            f"{drawn} splats cover {entries} tiles of a {lens.width} x {lens.height} image, the limit is"
+            f" {ENTRY_LIMIT}; the widest is splat {tiles.argmax()} with {tiles.max()} tiles",
+            "rasteriser",
+            "remove or shrink splats that fill the view, or render a smaller image",
+        )
+    tiles_x, tiles_y = -(-lens.width // TILE), -(-lens.height // TILE)
+    bins = Bins(
+        take((drawn,), np.int64), take((drawn, 4), np.int32), take((drawn + 1,), np.int64),
+        np.zeros(tiles_x * tiles_y + 1, np.int64), take((entries,), np.int32), take((entries,), np.int32),
+        tiles_x, tiles_y,
+    )  # fmt: skip
     starts = np.zeros((DIGITS, (1 << RADIX_BITS) + 1), np.int64)
-    return other[: sort_drawn(depth.view(np.uint32), box, starts, order, other)]
+    following = np.empty(tiles_x * tiles_y, np.int64)
+    return bins, Sorting(ellipses.depth.view(np.uint32), take((drawn,), np.int64), starts, following)
 
 
 @inlined
@@ -57,88 +94,84 @@ def digit(key: np.uint32, place: int) -> np.int64:
     return (np.int64(key) >> (place * RADIX_BITS)) & ((1 << RADIX_BITS) - 1)
 
 
-@kernel
-def sort_drawn(keys: np.ndarray, box: np.ndarray, starts: np.ndarray, order: np.ndarray, other: np.ndarray) -> int:
-    """Fill `other` with the drawn splats by rising key, stably, and return their number; `order` is spoilt.
+@inlined
+def sort_drawn(box: np.ndarray, sorting: Sorting, order: np.ndarray) -> None:
+    """Fill `order` with the drawn splats by rising depth, ties by index: LSD radix sort of the float's bits.
 
-    starts: (DIGITS, digits + 1) int64, zero on entry. DIGITS is odd, so the last pass ends in `other`.
+    Depths are positive, so their bits as unsigned integers rise with them. DIGITS is odd: the last pass ends in `order`.
     """
-    count = 0
+    other, starts, count = sorting.other, sorting.starts, 0
     for i in range(box.shape[0]):
         if box[i, 0] <= box[i, 1]:
-            order[count] = i
+            other[count] = i
             count += 1
             for place in range(DIGITS):
-                starts[place, digit(keys[i], place) + 1] += 1
+                starts[place, digit(sorting.keys[i], place) + 1] += 1
     for place in range(DIGITS):
         for value in range(starts.shape[1] - 1):
             starts[place, value + 1] += starts[place, value]
         for k in range(count):
-            i = order[k] if place & 1 == 0 else other[k]
-            value = digit(keys[i], place)
+            i = other[k] if place & 1 == 0 else order[k]
+            value = digit(sorting.keys[i], place)
             if place & 1 == 0:
-                other[starts[place, value]] = i
-            else:
                 order[starts[place, value]] = i
+            else:
+                other[starts[place, value]] = i
             starts[place, value] += 1
-    return count
-
-
-@kernel
-def gather(start: int, stop: int, order: np.ndarray, ellipses: Ellipses, source: tuple, records: np.ndarray) -> None:
-    """Copy ranks start..stop-1 into depth order: records (M, 6 + slots) float32.
-
-    Slot 0 holds the depth. source = features (N, C) float32, and the feature (slots,) int64 of each slot, -1: zero.
-    """
-    features, columns = source
-    for rank in range(start, stop):
-        coming = order[smaller(rank + AHEAD, stop - 1)]
-        prefetch(ellipses.geometry, GEOMETRY * coming)
-        prefetch(features, features.shape[1] * coming)
-        i = order[rank]
-        for k in range(GEOMETRY):
-            records[rank, k] = ellipses.geometry[i, k]
-        records[rank, GEOMETRY] = ellipses.depth[i]
-        for k in range(1, columns.size):
-            records[rank, GEOMETRY + k] = features[i, columns[k]] if columns[k] >= 0 else np.float32(0)
 
 
 @inlined
-def _tiles(box: np.ndarray, rank: int) -> tuple:
+def _tiles(box: np.ndarray, row: int) -> tuple:
     """First and last tile column, first and last tile row of a splat."""
-    return box[rank, 0] >> SHIFT, box[rank, 1] >> SHIFT, box[rank, 2] >> SHIFT, box[rank, 3] >> SHIFT
+    return box[row, 0] >> SHIFT, box[row, 1] >> SHIFT, box[row, 2] >> SHIFT, box[row, 3] >> SHIFT
+
+
+@inlined
+def count_slots(box: np.ndarray, bins: Bins) -> None:
+    """Copy the boxes into depth order and count their tiles into first_slot."""
+    bins.first_slot[0] = 0
+    for rank in range(bins.order.size):
+        i = bins.order[rank]
+        prefetch(box, 4 * bins.order[smaller(rank + AHEAD, bins.order.size - 1)])
+        for k in range(4):
+            bins.box[rank, k] = box[i, k]
+        x0, x1, y0, y1 = _tiles(bins.box, rank)
+        bins.first_slot[rank + 1] = bins.first_slot[rank] + (x1 - x0 + 1) * (y1 - y0 + 1)
+
+
+@inlined
+def count_entries(box: np.ndarray, bins: Bins, following: np.ndarray) -> None:
+    """The first entry of every tile, into tile_start and `following`."""
+    start = bins.tile_start
+    for i in range(box.shape[0]):
+        if box[i, 0] <= box[i, 1]:
+            x0, x1, y0, y1 = _tiles(box, i)
+            for y in range(y0, y1 + 1):
+                for x in range(x0, x1 + 1):
+                    start[y * bins.tiles_x + x + 1] += 1
+    for tile in range(following.size):
+        following[tile] = start[tile]
+        start[tile + 1] += start[tile]
 
 
 @kernel
-def count_slots(box: np.ndarray, first_slot: np.ndarray) -> tuple:
-    """Fill first_slot (M + 1,) int64; the number of all entries and the rank of the widest splat."""
-    first_slot[0] = 0
-    worst, most = 0, 0
-    for rank in range(box.shape[0]):
-        x0, x1, y0, y1 = _tiles(box, rank)
-        tiles = (x1 - x0 + 1) * (y1 - y0 + 1)
-        first_slot[rank + 1] = first_slot[rank] + tiles
-        if tiles > most:
-            worst, most = rank, tiles
-    return first_slot[box.shape[0]], worst
+def sort_and_count(stage: Stage, box: np.ndarray, bins: Bins, sorting: Sorting) -> None:
+    """The first stage of binning, its pieces SORT and COUNT."""
+    begin(stage)
+    piece = claim(stage)
+    while piece < stage.size:
+        if piece == SORT:
+            sort_drawn(box, sorting, bins.order)
+            count_slots(box, bins)
+        if piece == COUNT:
+            count_entries(box, bins, sorting.following)
+        piece = claim(stage)
+    meet(stage)
 
 
-@kernel
-def count_entries(first: int, stop: int, box: np.ndarray, tiles_x: int, tile_start: np.ndarray) -> None:
-    """Count the entries of every tile in tile rows first..stop-1 into tile_start (T + 1,) int64, zero on entry."""
-    for rank in range(box.shape[0]):
-        x0, x1, y0, y1 = _tiles(box, rank)
-        for y in range(larger(y0, first), smaller(y1 + 1, stop)):
-            for x in range(x0, x1 + 1):
-                tile_start[y * tiles_x + x + 1] += 1
-
-
-@kernel
+@inlined
 def scatter_entries(first: int, stop: int, bins: Bins, following: np.ndarray) -> None:
-    """Fill rank and slot of the entries in tile rows first..stop-1, tile by tile in depth order.
-
-    following (T,): a copy of tile_start.
-    """
+    """Fill rank and slot of the entries in tile rows first..stop-1, tile by tile in depth order."""
     for rank in range(bins.box.shape[0]):
         x0, x1, y0, y1 = _tiles(bins.box, rank)
         for y in range(larger(y0, first), smaller(y1 + 1, stop)):
@@ -151,30 +184,36 @@ def scatter_entries(first: int, stop: int, bins: Bins, following: np.ndarray) ->
                 slot += 1
 
 
-def bin_splats(lens: Lens, order: np.ndarray, box: np.ndarray) -> Bins:
-    """The bins of M splats by depth: order (M,) int64, box (M, 4) int32 by rank.
+@inlined
+def gather(start: int, stop: int, bins: Bins, ellipses: Ellipses, records: Records) -> None:
+    """Copy ranks start..stop-1 into depth order; slot 0 holds the depth."""
+    features, columns = records.features, records.columns
+    for rank in range(start, stop):
+        coming = bins.order[smaller(rank + AHEAD, stop - 1)]
+        prefetch(ellipses.geometry, GEOMETRY * coming)
+        prefetch(features, features.shape[1] * coming)
+        i = bins.order[rank]
+        for k in range(GEOMETRY):
+            records.table[rank, k] = ellipses.geometry[i, k]
+        records.table[rank, GEOMETRY] = ellipses.depth[i]
+        for k in range(1, columns.size):
+            records.table[rank, GEOMETRY + k] = features[i, columns[k]] if columns[k] >= 0 else np.float32(0)
+    for slot in range(bins.first_slot[start], bins.first_slot[stop]):
+        records.hits[slot] = 0
 
-    Raises GenmojoError("budget") where splats cover so many tiles that the gradients would not fit into memory.
-    """
-    tiles_x, tiles_y = -(-lens.width // TILE), -(-lens.height // TILE)
-    first_slot = take((len(order) + 1,), np.int64)
-    entries, worst = count_slots(box, first_slot)
-    if entries > ENTRY_LIMIT:
-        tiles = int(first_slot[worst + 1] - first_slot[worst])
-        raise GenmojoError(
-            "budget",
-            f"{len(order)} splats cover {entries} tiles of a {lens.width} x {lens.height} image, the limit is"
-            f" {ENTRY_LIMIT}; the widest is splat {int(order[worst])} with {tiles} tiles",
-            "rasteriser",
-            "remove or shrink splats that fill the view, or render a smaller image",
-        )
-    tile_start = np.zeros(tiles_x * tiles_y + 1, np.int64)
-    # Every thread walks all splats, for a band of tile rows; few entries are done before another thread has woken.
-    band = -(-tiles_y // (get_threads() if entries > FEW else 1))
-    run_ranges(lambda a, b: count_entries(a, b, box, tiles_x, tile_start), tiles_y, band)
-    np.cumsum(tile_start, out=tile_start)
-    rank, slot = take((entries,), np.int32), take((entries,), np.int32)
-    bins = Bins(order, box, first_slot, tile_start, rank, slot, tiles_x, tiles_y)
-    following = tile_start.copy()
-    run_ranges(lambda a, b: scatter_entries(a, b, bins, following), tiles_y, band)
-    return bins
+
+@kernel
+def scatter_and_gather(
+    stage: Stage, bands: tuple, bins: Bins, following: np.ndarray, ellipses: Ellipses, records: Records
+) -> None:
+    """The second stage of binning: pieces of ranks to gather, after bands[0] bands of bands[1] tile rows to scatter."""
+    begin(stage)
+    piece = claim(stage)
+    while piece < stage.size:
+        if piece < bands[0]:
+            scatter_entries(piece * bands[1], (piece + 1) * bands[1], bins, following)
+        else:
+            start = (piece - bands[0]) * bands[2]
+            gather(start, smaller(start + bands[2], bins.order.size), bins, ellipses, records)
+        piece = claim(stage)
+    meet(stage)

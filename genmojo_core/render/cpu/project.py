@@ -21,12 +21,16 @@ import numpy as np
 from genmojo_core.clip.cameras import View
 from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.kernels.scalars import larger, smaller
+from genmojo_core.kernels.stage import Stage, begin, claim, end_of, fetch_add, meet
 from genmojo_core.render.rasterizer import ALPHA_MIN, FRUSTUM_CLAMP
 
 LOG2_E = 1.4426950408889634
 LOG_ALPHA_MIN = math.log(ALPHA_MIN)
 SHORTEST_QUATERNION = 1e-12
 WIDEST = 1e7  # pixels: an ellipse that reaches further is a fault, and would overflow float32 in backward
+TILE = 16  # pixels
+SHIFT = 4  # TILE as a power of two
+DRAWN, ENTRIES = 0, 1  # places in Ellipses.totals
 GEOMETRY = 6  # floats per splat read by the pixel loops: centre x, y, three quadratic terms, log2 of the opacity
 
 
@@ -58,6 +62,7 @@ class Ellipses(NamedTuple):
     geometry: np.ndarray  # (N, 6) float32: centre x, y; log2(e) times -a/2, -b, -c/2; log2 opacity
     depth: np.ndarray  # (N,) float32 camera z
     box: np.ndarray  # (N, 4) int32: first and last column, first and last row of pixels that can reach 1/255
+    totals: np.ndarray  # (2,) int64, zero at first: splats drawn, and the tiles that they touch
 
 
 def lens_of(view: View, pose: np.ndarray | None = None) -> Lens:
@@ -148,13 +153,14 @@ def _span(centre: float, half: float, size: int) -> tuple:
     return np.int64(smaller(first, size)), np.int64(larger(last, -1))
 
 
-@kernel
-def project_range(start: int, stop: int, lens: Lens, cloud: Cloud, out: Ellipses) -> None:
-    """Project splats start..stop-1.
+@inlined
+def project_range(start: int, stop: int, lens: Lens, cloud: Cloud, out: Ellipses) -> tuple:
+    """Project splats start..stop-1; how many are drawn, and how many tiles they touch.
 
     Not drawn, with an empty box: depth outside near..far, opacity below 1/255, a quaternion without length, an ellipse
     off the image or reaching further than WIDEST, anything not finite.
     """
+    drawn, entries = 0, 0
     for i in range(start, stop):
         out.box[i, 0], out.box[i, 1], out.box[i, 2], out.box[i, 3] = 1, 0, 1, 0
         point = camera_point(lens, cloud.means, i)
@@ -180,3 +186,19 @@ def project_range(start: int, stop: int, lens: Lens, cloud: Cloud, out: Ellipses
         row = out.geometry[i]
         row[0], row[1] = x, y
         row[2], row[3], row[4], row[5] = -0.5 * scale * yy, scale * xy, -0.5 * scale * xx, log_opacity * LOG2_E
+        drawn += 1
+        entries += ((last_x >> SHIFT) - (first_x >> SHIFT) + 1) * ((last_y >> SHIFT) - (first_y >> SHIFT) + 1)
+    return drawn, entries
+
+
+@kernel
+def project_splats(stage: Stage, lens: Lens, cloud: Cloud, out: Ellipses) -> None:
+    """Project the splats of a stage."""
+    begin(stage)
+    first = claim(stage)
+    while first < stage.size:
+        drawn, entries = project_range(first, end_of(stage, first), lens, cloud, out)
+        fetch_add(out.totals, DRAWN, drawn)
+        fetch_add(out.totals, ENTRIES, entries)
+        first = claim(stage)
+    meet(stage)

@@ -21,6 +21,7 @@ import numpy as np
 from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.kernels.scalars import smaller
 from genmojo_core.kernels.simd import fma, load8, prefetch, select8, splat8, store8, store_rows
+from genmojo_core.kernels.stage import Stage, begin, claim, end_of, meet
 from genmojo_core.render.cpu.bins import Bins
 from genmojo_core.render.cpu.project import Cloud, Lens
 
@@ -261,14 +262,11 @@ def fetch(i: int, cloud: Cloud, out: Gradients) -> None:
     prefetch(out.features, out.features.shape[1] * i)
 
 
-@kernel
-def gather_gradients(
+@inlined
+def gather_range(
     job: int, span: tuple, bins: Bins, scene: tuple, sums: Sums, out: Gradients, scratch: np.ndarray
 ) -> None:
-    """Add the gradients of the splats at ranks span[0]..span[1]-1; scene = (lens, cloud).
-
-    scratch: SCRATCH float32, of any content.
-    """
+    """Add the gradients of the splats at ranks span[0]..span[1]-1."""
     lens, cloud = scene
     for k in range(0, SCRATCH, LANES):
         store8(scratch, k, splat8(np.float32(1)))  # lanes never filled stay harmless
@@ -294,3 +292,17 @@ def gather_gradients(
                 i = bins.order[span[0] + np.int64(scratch[RANKS + lane])]
                 hand_out(scratch, lane, i, scratch[INVERSES + lane], out, job)
             filled = 0
+
+
+@kernel
+def gather_gradients(stage: Stage, bins: Bins, scene: tuple, sums: Sums, out: Gradients, scratch: np.ndarray) -> None:
+    """Add the gradients of the splats at the ranks of a stage, a job per piece; scene = (lens, cloud).
+
+    scratch: SCRATCH float32, of any content.
+    """
+    begin(stage)
+    first = claim(stage)
+    while first < stage.size:
+        gather_range(first // stage.chunk, (first, end_of(stage, first)), bins, scene, sums, out, scratch)
+        first = claim(stage)
+    meet(stage)

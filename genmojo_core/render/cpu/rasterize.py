@@ -6,16 +6,18 @@ same bins; their contributions to the geometry's gradient add up.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.errors import GenmojoError
-from genmojo_core.kernels.buffers import take, zeros
-from genmojo_core.kernels.threads import run_jobs, run_ranges, scratch
+from genmojo_core.kernels.buffers import LINE, take
+from genmojo_core.kernels.team import Team
+from genmojo_core.kernels.threads import scratch
 from genmojo_core.render.cpu.backward import Slopes, slope_floats, slope_tiles
-from genmojo_core.render.cpu.bins import TILE, Bins, bin_splats, depth_order, gather
+from genmojo_core.render.cpu.bins import PIECES, Bins, Records, empty_bins, scatter_and_gather, sort_and_count
 from genmojo_core.render.cpu.forward import (
     LANES,
     MARKS,
@@ -24,14 +26,15 @@ from genmojo_core.render.cpu.forward import (
     drawing_floats,
     state_floats,
 )
-from genmojo_core.render.cpu.project import GEOMETRY, Cloud, Ellipses, Lens, lens_of, project_range
+from genmojo_core.render.cpu.project import GEOMETRY, TILE, Cloud, Ellipses, Lens, lens_of, project_splats
 from genmojo_core.render.cpu.project_backward import MOMENTS, SCRATCH, Gradients, Sums, gather_gradients
+from genmojo_core.render.cpu.upstream import Planes, Upstream, spread_upstream, upstream_of
 from genmojo_core.render.rasterizer import Rendering, Splats
 
 MAX_SLOTS = 16  # channels of one pass, depth included
 SPLATS_PER_JOB, SPLAT_JOBS = 2048, 8
-COPIES_PER_JOB = 2**14  # splats: fewer are copied before another thread has woken
-ROWS_PER_JOB = 64
+RANKS_PER_JOB, TILE_JOBS = 1024, 128
+LINE_FLOATS = LINE // 4
 
 
 @dataclass(frozen=True)
@@ -130,19 +133,25 @@ def draw(
         detached_channels: that many last feature channels give gradient to the features only.
     """
     cloud, features = _checked(splats)
-    lens = lens_of(view, pose)
+    lens, count = lens_of(view, pose), len(features)
     ellipses = Ellipses(
-        take((len(features), GEOMETRY)),
-        take((len(features),)),
-        take((len(features), 4), np.int32),
-    )
-    run_ranges(lambda a, b: project_range(a, b, lens, cloud, ellipses), len(features), _splat_chunk(len(features)))
-    order = depth_order(ellipses.depth, ellipses.box)
-    box = np.take(ellipses.box, order, axis=0, out=take((len(order), 4), np.int32), mode="clip")
-    bins = bin_splats(lens, order, box)
-    drawn = Drawn(lens, cloud, bins, features.shape[1])
-    for layout in layouts(features.shape[1], detached_channels):
-        drawn.passes.append(_draw_pass(drawn, layout, ellipses, features))
+        take((count, GEOMETRY)), take((count,)), take((count, 4), np.int32), np.zeros(2, np.int64)
+    )  # fmt: skip
+    with Team() as team:
+        team.run(lambda stage: project_splats(stage, lens, cloud, ellipses), count, _splat_chunk(count))
+        bins, sorting = empty_bins(lens, ellipses)
+        team.run(lambda stage: sort_and_count(stage, ellipses.box, bins, sorting), PIECES)
+        drawn = Drawn(lens, cloud, bins, features.shape[1])
+        for layout in layouts(features.shape[1], detached_channels):
+            one, records = _empty_pass(drawn, layout, features)
+            # One thread walks all splats for each band of tile rows; nobody does so again in later passes.
+            bands = 0 if drawn.passes else min(team.threads, bins.tiles_y)
+            parts = bands, -(-bins.tiles_y // max(bands, 1)), RANKS_PER_JOB
+            tiles, pieces = bins.tiles_x * bins.tiles_y, bands + -(-len(bins.order) // RANKS_PER_JOB)
+            following, drawing, room = sorting.following, one.drawing, drawing_floats(layout.slots)
+            team.run(lambda stage: scatter_and_gather(stage, parts, bins, following, ellipses, records), pieces)
+            team.run(lambda stage: draw_tiles(stage, drawing, bins, *_room(room)), tiles, _tile_chunk(bins))
+            drawn.passes.append(one)
     return drawn
 
 
@@ -153,18 +162,13 @@ def backward(
 
     The pose's gradient is 0 unless `with_pose`.
     """
-    count = len(drawn.cloud.means)
-    jobs = -(-len(drawn.bins.order) // _splat_chunk(len(drawn.bins.order)))
-    out = Gradients(
-        zeros((count, 3)),
-        zeros((count, 4)),
-        zeros((count, 3)),
-        zeros((count,)),
-        zeros((count, drawn.features)),
-        np.zeros((jobs if with_pose else 0, 12)),
-    )
-    for index, one in enumerate(drawn.passes):
-        _add_gradients(drawn, one, upstream, out, first=index == 0)
+    bins, jobs = drawn.bins, -(-len(drawn.bins.order) // _splat_chunk(len(drawn.bins.order)))
+    out, numbers = _empty_gradients(drawn, jobs if with_pose else 0)
+    with Team() as team:
+        for index, one in enumerate(drawn.passes):
+            _add_gradients(
+                team, drawn, one, upstream_of(upstream, first=index == 0), out, numbers[: 0 if index else None]
+            )
     pose = np.zeros((4, 4))
     pose[:3] = out.pose.sum(axis=0).reshape(3, 4)
     return Splats(out.means, out.quats, out.scales, out.opacities, out.features), pose
@@ -185,76 +189,56 @@ def layouts(features: int, detached: int) -> list[Layout]:
     return found
 
 
-def _draw_pass(drawn: Drawn, layout: Layout, ellipses: Ellipses, features: np.ndarray) -> Pass:
-    """Blend the features of one pass."""
+def _empty_pass(drawn: Drawn, layout: Layout, features: np.ndarray) -> tuple[Pass, Records]:
+    """A pass with nothing drawn yet, and its records with nothing gathered."""
     bins, lens = drawn.bins, drawn.lens
     count, slots = len(bins.order), layout.slots
-    records = take((count * (GEOMETRY + slots) + LANES,))  # the tile kernels copy eight at a time, over the end
-    table = records[:-LANES].reshape(count, GEOMETRY + slots)
-    source = (features, layout.feature_of_slot())
-    run_ranges(lambda a, b: gather(a, b, bins.order, ellipses, source, table), count, COPIES_PER_JOB)
+    flat = take((count * (GEOMETRY + slots) + LANES,))  # the tile kernels copy eight at a time, over the end
     planes = take((1 + slots, bins.tiles_y * TILE, bins.tiles_x * TILE))
-    tiles = bins.tiles_x * bins.tiles_y
-    hits = zeros((len(bins.rank),), np.uint32)
+    hits = take((len(bins.rank),), np.uint32)
     drawing = Drawing(
-        records, slots, state_floats(slots), layout.attached_slots, planes.ravel(), hits, lens.width, lens.height
+        flat, slots, state_floats(slots), layout.attached_slots, planes.ravel(), hits, lens.width, lens.height
     )  # fmt: skip
-    floats = drawing_floats(slots)
-    run_ranges(lambda a, b: draw_tiles(a, b, drawing, bins, *room(floats, MARKS)), tiles, _tile_chunk(bins))
-    return Pass(layout, drawing, planes)
+    table = flat[:-LANES].reshape(count, GEOMETRY + slots)
+    return Pass(layout, drawing, planes), Records(features, layout.feature_of_slot(), table, hits)
+
+
+def _empty_gradients(drawn: Drawn, jobs: int) -> tuple[Gradients, np.ndarray]:
+    """Gradients of any content, and all their numbers side by side."""
+    count = len(drawn.cloud.means)
+    shapes = ((count, 3), (count, 4), (count, 3), (count,), (count, drawn.features))
+    sizes = [-(-math.prod(shape) // LINE_FLOATS) * LINE_FLOATS for shape in shapes]
+    numbers, arrays, start = take((sum(sizes),)), [], 0
+    for shape, size in zip(shapes, sizes, strict=True):
+        arrays.append(numbers[start : start + math.prod(shape)].reshape(shape))
+        start += size
+    return Gradients(*arrays, np.zeros((jobs, 12))), numbers
 
 
 def _add_gradients(
-    drawn: Drawn, one: Pass, upstream: Rendering[np.ndarray], out: Gradients, *, first: bool
+    team: Team, drawn: Drawn, one: Pass, upstream: Upstream, out: Gradients, clear: np.ndarray
 ) -> None:  # fmt: skip
-    """Add the gradients of one pass to `out`; depth and alpha count in the first pass only."""
-    bins, layout = drawn.bins, one.layout
-    planes = take(one.planes.shape)
-    run_ranges(lambda a, b: _fill(planes, (a, b), drawn, layout, upstream, first), planes.shape[1], ROWS_PER_JOB)
+    """Add the gradients of one pass to `out`, whose numbers `clear` are of any content before."""
+    bins, layout, drawing = drawn.bins, one.layout, one.drawing
+    features = np.concatenate([[-1], layout.feature_of_slot()])
+    height, pitch = one.planes.shape[1:]
+    planes = Planes(take((one.planes.size,)), features, height, pitch, drawing.height, drawing.width)
+    team.run(lambda stage: spread_upstream(stage, upstream, planes, clear), bins.tiles_y)
     row = -(-(MOMENTS + layout.slots) // 8) * 8
-    slopes = Slopes(planes.ravel(), take((len(bins.rank) * row,)), row)
+    slopes, floats = Slopes(planes.values, take((len(bins.rank) * row,)), row), slope_floats(layout.slots)
     tiles = bins.tiles_x * bins.tiles_y
-    floats = slope_floats(layout.slots)
-    run_ranges(lambda a, b: slope_tiles(a, b, one.drawing, bins, slopes, scratch(floats)), tiles, _tile_chunk(bins))
+    team.run(lambda stage: slope_tiles(stage, drawing, bins, slopes, scratch(floats)), tiles, _tile_chunk(bins))
+    sums, scene = Sums(slopes.rows, row, drawing.hits, features[1:]), (drawn.lens, drawn.cloud)
     ranks = len(bins.order)
-    chunk = _splat_chunk(ranks)
-    sums, scene = Sums(slopes.rows, row, one.drawing.hits, layout.feature_of_slot()), (drawn.lens, drawn.cloud)
-
-    def job(index: int) -> None:
-        span = (index * chunk, min((index + 1) * chunk, ranks))
-        gather_gradients(index, span, bins, scene, sums, out, scratch(SCRATCH))
-
-    run_jobs(job, -(-ranks // chunk))
+    team.run(
+        lambda stage: gather_gradients(stage, bins, scene, sums, out, scratch(SCRATCH)), ranks, _splat_chunk(ranks)
+    )
 
 
-def _fill(
-    planes: np.ndarray,
-    rows: tuple[int, int],
-    drawn: Drawn,
-    layout: Layout,
-    upstream: Rendering[np.ndarray],
-    first: bool,
-) -> None:
-    """Rows of the planes of a pass's upstream gradients: 0 outside the picture and in empty slots."""
-    width, slots = drawn.lens.width, layout.feature_slots()
-    band, inside = planes[:, rows[0] : rows[1]], slice(rows[0], min(rows[1], drawn.lens.height))
-    height = max(inside.stop - inside.start, 0)
-    band[:, height:] = 0
-    band[:, :height, width:] = 0
-    band[2 if first else 0 : 1 + slots.start] = 0
-    band[1 + slots.stop :] = 0
-    if first:
-        band[0, :height, :width] = upstream.alpha[inside]
-        band[1, :height, :width] = upstream.depth[inside]
-    features = np.moveaxis(np.asarray(upstream.features)[inside], 2, 0)
-    for columns, places in layout.columns():
-        band[1 + places.start : 1 + places.stop, :height, :width] = features[columns]
-
-
-def room(floats: int, marks: int) -> tuple[np.ndarray, np.ndarray]:
-    """The calling thread's scratch for a tile kernel: (floats,) float32 and (marks,) int64."""
-    whole = scratch(2 * marks + floats)
-    return whole[2 * marks :], whole[: 2 * marks].view(np.int64)
+def _room(floats: int) -> tuple[np.ndarray, np.ndarray]:
+    """The calling thread's scratch for `draw_tiles`: (floats,) float32 and (MARKS,) int64."""
+    whole = scratch(2 * MARKS + floats)
+    return whole[2 * MARKS :], whole[: 2 * MARKS].view(np.int64)
 
 
 def _splat_chunk(count: int) -> int:
@@ -263,8 +247,8 @@ def _splat_chunk(count: int) -> int:
 
 
 def _tile_chunk(bins: Bins) -> int:
-    """Tiles per job: about 32 jobs, so that threads end together."""
-    return max(1, bins.tiles_x * bins.tiles_y // 32)
+    """Tiles per piece: so many pieces that threads end together."""
+    return max(1, bins.tiles_x * bins.tiles_y // TILE_JOBS)
 
 
 def _even(number: int) -> int:

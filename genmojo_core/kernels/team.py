@@ -1,0 +1,71 @@
+"""Threads that go through the stages of one picture together."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from concurrent.futures import Future
+from types import TracebackType
+
+import numpy as np
+
+from genmojo_core.kernels.stage import INSIDE, WORDS, Stage
+from genmojo_core.kernels.threads import helpers_at_hand, submit
+
+ENDED = 2**62  # number of no stage
+NAP = 1e-4  # seconds
+
+
+class Team:
+    """The calling thread and as many helpers as it may have, from stage to stage of one picture.
+
+        with Team() as team:
+            team.run(lambda stage: some_kernel(stage, ...), size, chunk)
+
+    Helpers are woken once and stay at hand between the stages for a fraction of a millisecond each; by the end of the
+    block they are on their way back to sleep. A thread that has no helpers wakes and waits for nobody.
+    """
+
+    def __init__(self) -> None:
+        self.threads = 1 + helpers_at_hand()
+        self._newest = np.zeros(WORDS, np.int64)
+        self._posted: tuple[Callable[[Stage], object], Stage] | None = None
+        self._asked: list[Future[None]] = []
+
+    def __enter__(self) -> Team:
+        return self
+
+    def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self._newest[0] = ENDED
+        asked, self._asked = self._asked, []
+        for one in asked:
+            if not one.cancel() and error is None and one.done():
+                one.result()
+
+    def run(self, kernel: Callable[[Stage], object], size: int, chunk: int = 1) -> None:
+        """Call kernel(stage) on every thread at hand, and return when all pieces of 0..size-1 are done.
+
+        The kernel takes its pieces by the rules of kernels/stage.py. Pieces are the same for any number of threads.
+        """
+        shared = self.threads > 1 and size > chunk
+        number = (self._posted[1].number if self._posted else 0) + shared
+        stage = Stage(self._newest, np.zeros(WORDS, np.int64), number, size, chunk, 1)
+        if shared:
+            self._posted = kernel, stage._replace(leads=0)
+            self._ask()
+        kernel(stage)
+        while stage.counts[INSIDE] != 0:  # somebody was stopped in the middle of a piece
+            time.sleep(NAP)
+
+    def _ask(self) -> None:
+        """Wake helpers in place of those that have none yet or ran out of patience."""
+        self._asked = [one for one in self._asked if not one.done()]
+        self._asked += [submit(self._attend) for _ in range(self.threads - 1 - len(self._asked))]
+
+    def _attend(self) -> None:
+        """A helper's part: every stage it comes in time for, until none has begun while it waited."""
+        done = 0
+        while self._posted is not None and self._posted[1].number > done and self._newest[0] != ENDED:
+            kernel, stage = self._posted
+            kernel(stage)
+            done = stage.number
