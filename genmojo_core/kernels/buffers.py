@@ -35,7 +35,7 @@ def take(shape: tuple[int, ...], dtype: Any = np.float32) -> np.ndarray:
 
 def on_line(array: np.ndarray, size: int) -> np.ndarray:
     """`size` bytes of a flat uint8 array of at least LINE more, from the start of a cache line on."""
-    first = -array.ctypes.data % LINE
+    first = -array.__array_interface__["data"][0] % LINE
     return array[first : first + size]
 
 

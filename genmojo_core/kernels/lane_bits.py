@@ -22,6 +22,22 @@ def bits(typingctx: Any, mask: types.Type) -> Any:
 
 
 @instruction
+def gather8(typingctx: Any, array: types.Type, index: types.Type, step: types.Type) -> Any:
+    """Eight elements of a flat float32 array, from `index` on, `step` apart."""
+
+    def codegen(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        array, index, step = arguments
+        data = context.make_array(signature.args[0])(context, builder, array).data
+        lanes = ir.Constant(F8, ir.Undefined)
+        for lane in range(LANES):
+            lanes = builder.insert_element(lanes, builder.load(builder.gep(data, [index])), ir.Constant(I32, lane))
+            index = builder.add(index, step)
+        return lanes
+
+    return Float8(array, types.intp, types.intp), codegen
+
+
+@instruction
 def any_lane(typingctx: Any, mask: types.Type) -> Any:
     """1 where some lane holds, else 0, as an int64."""
 

@@ -11,9 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from genmojo_core.errors import GenmojoError
+from genmojo_core.kernels.stage import alone
 from genmojo_core.render import autograd, reference, torch_tiles
-from genmojo_core.render.cpu.bins import bin_splats
-from genmojo_core.render.cpu.project import lens_of
+from genmojo_core.render.cpu.bins import HALVES, empty_bins, sort_and_count
+from genmojo_core.render.cpu.project import Ellipses, lens_of
 from genmojo_core.render.cpu.rasterize import rasterize
 from genmojo_core.render.rasterizer import Splats
 from tests.render.scenes import NAMES, camera, random_splats, relative_error, run, upstream
@@ -168,11 +169,15 @@ def test_n09_index_maths_holds_for_sizes_that_overflow_32_bits(width: int, heigh
     lens = lens_of(view)._replace(width=width, height=height)
     spans = box.astype(object) // 16
     expected = sum((b[1] - b[0] + 1) * (b[3] - b[2] + 1) for b in spans)
+    depth = np.arange(1, 2001, dtype=np.float32)
+    ellipses = Ellipses(np.zeros((2000, 6), np.float32), depth, box, np.array([2000, expected], np.int64))
     if expected > 2**24:
         with pytest.raises(GenmojoError, match=f"cover {expected} tiles"):
-            bin_splats(lens, np.arange(2000), box)
+            empty_bins(lens, ellipses)
     elif width * height < 2**30:
-        assert len(bin_splats(lens, np.arange(2000), box).rank) == expected
+        bins, sorting = empty_bins(lens, ellipses)
+        sort_and_count(alone(HALVES), box, bins, sorting)
+        assert len(bins.rank) == bins.tile_start[-1] == bins.first_slot[-1] == expected
 
 
 @pytest.mark.parametrize("padding", [1, 5, 15, 16, 31])

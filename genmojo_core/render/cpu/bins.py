@@ -26,7 +26,7 @@ from genmojo_core.render.cpu.project import DRAWN, ENTRIES, GEOMETRY, SHIFT, TIL
 ENTRY_LIMIT = 2**24  # entries of one view: 1 GiB of gradient rows
 RADIX_BITS, DIGITS = 11, 3  # 33 bits
 AHEAD = 8  # splats
-SORT, COUNT, PIECES = 0, 1, 2  # of the first stage
+SORT, COUNT, HALVES = 0, 1, 2  # the pieces of the first stage, and how many they are
 
 
 class Bins(NamedTuple):
@@ -58,6 +58,14 @@ class Records(NamedTuple):
     columns: np.ndarray  # (slots,) int64: the feature of each slot, -1: zero; the first is depth's
     table: np.ndarray  # (M, 6 + slots) float32
     hits: np.ndarray  # (E,) uint32 by slot: cleared along with the records
+
+
+class Pieces(NamedTuple):
+    """The second stage's pieces: so many bands of tile rows to scatter come first, then ranks to gather."""
+
+    bands: int
+    rows: int  # of tiles in a band
+    ranks: int  # of a piece
 
 
 def empty_bins(lens: Lens, ellipses: Ellipses) -> tuple[Bins, Sorting]:
@@ -98,7 +106,8 @@ def digit(key: np.uint32, place: int) -> np.int64:
 def sort_drawn(box: np.ndarray, sorting: Sorting, order: np.ndarray) -> None:
     """Fill `order` with the drawn splats by rising depth, ties by index: LSD radix sort of the float's bits.
 
-    Depths are positive, so their bits as unsigned integers rise with them. DIGITS is odd: the last pass ends in `order`.
+    Depths are positive, so their bits as unsigned integers rise with them. DIGITS is odd: the last pass ends in
+    `order`.
     """
     other, starts, count = sorting.other, sorting.starts, 0
     for i in range(box.shape[0]):
@@ -204,16 +213,16 @@ def gather(start: int, stop: int, bins: Bins, ellipses: Ellipses, records: Recor
 
 @kernel
 def scatter_and_gather(
-    stage: Stage, bands: tuple, bins: Bins, following: np.ndarray, ellipses: Ellipses, records: Records
+    stage: Stage, pieces: Pieces, bins: Bins, following: np.ndarray, ellipses: Ellipses, records: Records
 ) -> None:
-    """The second stage of binning: pieces of ranks to gather, after bands[0] bands of bands[1] tile rows to scatter."""
+    """The second stage of binning, a piece at a time. following: `Sorting.following`."""
     begin(stage)
     piece = claim(stage)
     while piece < stage.size:
-        if piece < bands[0]:
-            scatter_entries(piece * bands[1], (piece + 1) * bands[1], bins, following)
+        if piece < pieces.bands:
+            scatter_entries(piece * pieces.rows, (piece + 1) * pieces.rows, bins, following)
         else:
-            start = (piece - bands[0]) * bands[2]
-            gather(start, smaller(start + bands[2], bins.order.size), bins, ellipses, records)
+            start = (piece - pieces.bands) * pieces.ranks
+            gather(start, smaller(start + pieces.ranks, bins.order.size), bins, ellipses, records)
         piece = claim(stage)
     meet(stage)

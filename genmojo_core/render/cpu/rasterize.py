@@ -17,7 +17,16 @@ from genmojo_core.kernels.buffers import LINE, take
 from genmojo_core.kernels.team import Team
 from genmojo_core.kernels.threads import scratch
 from genmojo_core.render.cpu.backward import Slopes, slope_floats, slope_tiles
-from genmojo_core.render.cpu.bins import PIECES, Bins, Records, empty_bins, scatter_and_gather, sort_and_count
+from genmojo_core.render.cpu.bins import (
+    HALVES,
+    Bins,
+    Pieces,
+    Records,
+    Sorting,
+    empty_bins,
+    scatter_and_gather,
+    sort_and_count,
+)
 from genmojo_core.render.cpu.forward import (
     LANES,
     MARKS,
@@ -140,18 +149,10 @@ def draw(
     with Team() as team:
         team.run(lambda stage: project_splats(stage, lens, cloud, ellipses), count, _splat_chunk(count))
         bins, sorting = empty_bins(lens, ellipses)
-        team.run(lambda stage: sort_and_count(stage, ellipses.box, bins, sorting), PIECES)
+        team.run(lambda stage: sort_and_count(stage, ellipses.box, bins, sorting), HALVES)
         drawn = Drawn(lens, cloud, bins, features.shape[1])
         for layout in layouts(features.shape[1], detached_channels):
-            one, records = _empty_pass(drawn, layout, features)
-            # One thread walks all splats for each band of tile rows; nobody does so again in later passes.
-            bands = 0 if drawn.passes else min(team.threads, bins.tiles_y)
-            parts = bands, -(-bins.tiles_y // max(bands, 1)), RANKS_PER_JOB
-            tiles, pieces = bins.tiles_x * bins.tiles_y, bands + -(-len(bins.order) // RANKS_PER_JOB)
-            following, drawing, room = sorting.following, one.drawing, drawing_floats(layout.slots)
-            team.run(lambda stage: scatter_and_gather(stage, parts, bins, following, ellipses, records), pieces)
-            team.run(lambda stage: draw_tiles(stage, drawing, bins, *_room(room)), tiles, _tile_chunk(bins))
-            drawn.passes.append(one)
+            drawn.passes.append(_draw_pass(team, drawn, layout, (ellipses, features), sorting))
     return drawn
 
 
@@ -162,13 +163,11 @@ def backward(
 
     The pose's gradient is 0 unless `with_pose`.
     """
-    bins, jobs = drawn.bins, -(-len(drawn.bins.order) // _splat_chunk(len(drawn.bins.order)))
-    out, numbers = _empty_gradients(drawn, jobs if with_pose else 0)
+    out, numbers = _empty_gradients(drawn, with_pose=with_pose)
     with Team() as team:
         for index, one in enumerate(drawn.passes):
-            _add_gradients(
-                team, drawn, one, upstream_of(upstream, first=index == 0), out, numbers[: 0 if index else None]
-            )
+            first = index == 0
+            _add_gradients(team, drawn, one, upstream_of(upstream, first=first), out, numbers[: None if first else 0])
     pose = np.zeros((4, 4))
     pose[:3] = out.pose.sum(axis=0).reshape(3, 4)
     return Splats(out.means, out.quats, out.scales, out.opacities, out.features), pose
@@ -189,29 +188,39 @@ def layouts(features: int, detached: int) -> list[Layout]:
     return found
 
 
-def _empty_pass(drawn: Drawn, layout: Layout, features: np.ndarray) -> tuple[Pass, Records]:
-    """A pass with nothing drawn yet, and its records with nothing gathered."""
-    bins, lens = drawn.bins, drawn.lens
+def _draw_pass(
+    team: Team, drawn: Drawn, layout: Layout, source: tuple[Ellipses, np.ndarray], sorting: Sorting
+) -> Pass:  # fmt: skip
+    """Blend the features of one pass, the first of which also hands out the entries of the tiles."""
+    bins, lens, (ellipses, features) = drawn.bins, drawn.lens, source
     count, slots = len(bins.order), layout.slots
     flat = take((count * (GEOMETRY + slots) + LANES,))  # the tile kernels copy eight at a time, over the end
     planes = take((1 + slots, bins.tiles_y * TILE, bins.tiles_x * TILE))
     hits = take((len(bins.rank),), np.uint32)
+    table = flat[:-LANES].reshape(count, GEOMETRY + slots)
+    records = Records(features, layout.feature_of_slot(), table, hits)
+    bands = 0 if drawn.passes else min(team.threads, bins.tiles_y)  # for each of them all splats are walked
+    sizes = Pieces(bands, -(-bins.tiles_y // max(bands, 1)), RANKS_PER_JOB)
+    pieces = bands + -(-count // RANKS_PER_JOB)
+    team.run(lambda stage: scatter_and_gather(stage, sizes, bins, sorting.following, ellipses, records), pieces)
     drawing = Drawing(
         flat, slots, state_floats(slots), layout.attached_slots, planes.ravel(), hits, lens.width, lens.height
     )  # fmt: skip
-    table = flat[:-LANES].reshape(count, GEOMETRY + slots)
-    return Pass(layout, drawing, planes), Records(features, layout.feature_of_slot(), table, hits)
+    floats, tiles = drawing_floats(slots), bins.tiles_x * bins.tiles_y
+    team.run(lambda stage: draw_tiles(stage, drawing, bins, *_room(floats)), tiles, _tile_chunk(bins))
+    return Pass(layout, drawing, planes)
 
 
-def _empty_gradients(drawn: Drawn, jobs: int) -> tuple[Gradients, np.ndarray]:
-    """Gradients of any content, and all their numbers side by side."""
-    count = len(drawn.cloud.means)
+def _empty_gradients(drawn: Drawn, *, with_pose: bool) -> tuple[Gradients, np.ndarray]:
+    """Gradients of any content, and all numbers of the splats' side by side."""
+    count, ranks = len(drawn.cloud.means), len(drawn.bins.order)
     shapes = ((count, 3), (count, 4), (count, 3), (count,), (count, drawn.features))
     sizes = [-(-math.prod(shape) // LINE_FLOATS) * LINE_FLOATS for shape in shapes]
     numbers, arrays, start = take((sum(sizes),)), [], 0
     for shape, size in zip(shapes, sizes, strict=True):
         arrays.append(numbers[start : start + math.prod(shape)].reshape(shape))
         start += size
+    jobs = -(-ranks // _splat_chunk(ranks)) if with_pose else 0
     return Gradients(*arrays, np.zeros((jobs, 12))), numbers
 
 
@@ -262,11 +271,16 @@ def _checked(splats: Splats[np.ndarray]) -> tuple[Cloud, np.ndarray]:
     wanted = {"means": (count, 3), "quats": (count, 4), "scales": (count, 3), "opacities": (count,)}
     arrays = []
     for name, shape in wanted.items():
-        array = np.require(getattr(splats, name), np.float32, ["C", "W"])  # writable: kernels know one kind of array
+        array = _plain(getattr(splats, name))
         if array.shape != shape:
             raise GenmojoError("schema", f"{name} has shape {array.shape}, expected {shape}", "rasteriser")
         arrays.append(array)
-    features = np.require(splats.features, np.float32, ["C", "W"])
+    features = _plain(splats.features)
     if features.ndim != 2 or len(features) != count:
         raise GenmojoError("schema", f"features have shape {features.shape}, expected ({count}, C)", "rasteriser")
     return Cloud(*arrays), features
+
+
+def _plain(array: np.ndarray) -> np.ndarray:
+    """Float32 in C order and writable, because kernels know one kind of array; itself where it is that."""
+    return array if array.dtype == np.float32 and array.flags.carray else np.require(array, np.float32, ["C", "W"])

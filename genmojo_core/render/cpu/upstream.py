@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
+from genmojo_core.kernels.lane_bits import gather8
 from genmojo_core.kernels.scalars import smaller
 from genmojo_core.kernels.simd import load8, splat8, store8
 from genmojo_core.kernels.stage import Stage, begin, claim, meet
@@ -17,7 +18,7 @@ LANES = 8
 
 
 class Upstream(NamedTuple):
-    """Gradients as they came, in any order in memory: each as all its memory, flat float32, and its steps there."""
+    """Gradients, each as all its memory, flat float32, and its steps there; of one number where there are none."""
 
     alpha: np.ndarray
     depth: np.ndarray
@@ -38,49 +39,41 @@ class Planes(NamedTuple):
 
 def upstream_of(gradients: Rendering[np.ndarray], *, first: bool) -> Upstream:
     """The gradients of one pass; depth and alpha count in the first only, and are 0 in the others."""
-    nothing = np.broadcast_to(np.zeros(1, np.float32), gradients.alpha.shape)
-    arrays = (
-        gradients.alpha if first else nothing,
-        gradients.depth if first else nothing,
-        gradients.features,
-    )
     steps, flat = np.zeros((3, 3), np.int64), []
-    for k, array in enumerate(arrays):
-        values = np.asarray(array, np.float32)
-        if not values.size:
-            values = np.zeros((1,) * values.ndim, np.float32)
-        if min(values.strides) < 0 or any(s % 4 for s in values.strides):
-            values = np.ascontiguousarray(values)
-        steps[k, : values.ndim] = [s // 4 for s in values.strides]
-        reach = 1 + sum((n - 1) * int(s) for n, s in zip(values.shape, steps[k], strict=False))
-        memory = np.lib.stride_tricks.as_strided(values, (reach,), (4,))
-        flat.append(memory if memory.flags.writeable else memory.copy())  # kernels know one kind of array
+    for k, array in enumerate((gradients.alpha, gradients.depth, gradients.features)):
+        if array.size and (first or k == 2):
+            values = array if _is_plain(array) else np.require(array, np.float32, ["C", "W"])
+            steps[k, : values.ndim] = [step // values.itemsize for step in values.strides]
+            flat.append(values.ravel("K"))
+        else:
+            flat.append(np.zeros(1, np.float32))
     return Upstream(flat[0], flat[1], flat[2], steps)
 
 
-@inlined
-def spread_plane(source: np.ndarray, start: int, steps: np.ndarray, planes: Planes, place: int, rows: int) -> None:
-    """Fill TILE rows of a plane from `place` on: `rows` of the source from `start` on, and 0 around them."""
-    for y in range(TILE):
-        at, here, x = place + y * planes.pitch, start + y * steps[0], 0
-        columns = planes.columns if y < rows else 0
-        if steps[1] == 1:
-            while x + LANES <= columns:
-                store8(planes.values, at + x, load8(source, here + x))
-                x += LANES
-        while x < columns:
-            planes.values[at + x] = source[here + x * steps[1]]
-            x += 1
-        while x < planes.pitch:
-            planes.values[at + x] = 0
-            x += 1
+def _is_plain(array: np.ndarray) -> bool:
+    """Float32 without gaps, its channels together or each by itself; writable: kernels know one kind of array."""
+    flags = array.flags
+    together = flags.c_contiguous or (array.ndim == 3 and array.transpose(2, 0, 1).flags.c_contiguous)
+    return bool(together and flags.writeable and flags.aligned and array.dtype == np.float32)
 
 
 @inlined
-def clear_share(values: np.ndarray, share: int, shares: int) -> None:
-    """Set one of equal shares of a flat float32 array to 0."""
-    size = -(-values.size // (LANES * shares)) * LANES
-    i, end = share * size, smaller((share + 1) * size, values.size)
+def spread_row(source: np.ndarray, start: int, step: int, target: np.ndarray, at: int, columns: int) -> None:
+    """Copy one row of one channel: `columns` numbers that lie `step` apart from `start` on."""
+    end = at + columns
+    while at + LANES <= end:
+        store8(target, at, load8(source, start) if step == 1 else gather8(source, start, step))
+        at += LANES
+        start += LANES * step
+    while at < end:
+        target[at] = source[start]
+        at += 1
+        start += step
+
+
+@inlined
+def clear(values: np.ndarray, i: int, end: int) -> None:
+    """Set elements i..end-1 of a flat float32 array to 0."""
     while i + LANES <= end:
         store8(values, i, splat8(np.float32(0)))
         i += LANES
@@ -89,23 +82,33 @@ def clear_share(values: np.ndarray, share: int, shares: int) -> None:
         i += 1
 
 
+@inlined
+def spread_line(y: int, upstream: Upstream, planes: Planes) -> None:
+    """Fill row y of all planes: channels of a row lie close together, rows do not."""
+    steps, size, at = upstream.steps, planes.height * planes.pitch, y * planes.pitch
+    columns = planes.columns if y < planes.rows else 0
+    spread_row(upstream.alpha, y * steps[0, 0], steps[0, 1], planes.values, at, columns)
+    clear(planes.values, at + columns, at + planes.pitch)
+    for c in range(1, planes.features.size):
+        feature, place = planes.features[c], c * size + at
+        filled = columns if c == 1 or feature >= 0 else 0
+        if feature >= 0:
+            start = y * steps[2, 0] + feature * steps[2, 2]
+            spread_row(upstream.features, start, steps[2, 1], planes.values, place, filled)
+        else:
+            spread_row(upstream.depth, y * steps[1, 0], steps[1, 1], planes.values, place, filled)
+        clear(planes.values, place + filled, place + planes.pitch)
+
+
 @kernel
 def spread_upstream(stage: Stage, upstream: Upstream, planes: Planes, gradients: np.ndarray) -> None:
-    """Fill the planes, row of tiles by row of tiles, and clear the gradients that are added to later."""
+    """Fill the planes, a row of tiles per piece, and clear the gradients that are added to later, a share per piece."""
     begin(stage)
-    size = planes.height * planes.pitch
+    share = -(-gradients.size // (LANES * stage.size)) * LANES
     piece = claim(stage)
     while piece < stage.size:
-        top = piece * TILE
-        rows, place, steps = smaller(planes.rows - top, TILE), top * planes.pitch, upstream.steps
-        spread_plane(upstream.alpha, top * steps[0, 0], steps[0], planes, place, rows)
-        for c in range(1, planes.features.size):
-            feature = planes.features[c]
-            if feature >= 0:
-                start = top * steps[2, 0] + feature * steps[2, 2]
-                spread_plane(upstream.features, start, steps[2], planes, c * size + place, rows)
-            else:
-                spread_plane(upstream.depth, top * steps[1, 0], steps[1], planes, c * size + place, rows * (c == 1))
-        clear_share(gradients, piece, stage.size)
+        for y in range(piece * TILE, (piece + 1) * TILE):
+            spread_line(y, upstream, planes)
+        clear(gradients, piece * share, smaller((piece + 1) * share, gradients.size))
         piece = claim(stage)
     meet(stage)
