@@ -208,10 +208,10 @@ def slope_tile(tile: int, drawing: Drawing, bins: Bins, slopes: Slopes, scratch:
         read_tile(drawing, slopes, scratch, (left, top, pitch, pitch * bins.tiles_y * TILE))
     corner = (np.float32(left), np.float32(top))
     for entry in range(bins.tile_start[tile], last):
-        slot = bins.slot[entry]
-        hit = np.int64(drawing.hits[slot])
+        hit = np.int64(drawing.hits[entry])
         if hit == 0:
             continue
+        slot = bins.slot[entry]
         coming = smaller(entry + AHEAD, last - 1)
         prefetch(drawing.records, bins.rank[coming] * width)
         prefetch(slopes.rows, bins.slot[coming] * slopes.row)

@@ -38,6 +38,7 @@ class Bins(NamedTuple):
     tile_start: np.ndarray  # (T + 1,) int64 first entry of each tile
     rank: np.ndarray  # (E,) int32 splat of the entry
     slot: np.ndarray  # (E,) int32 gradient row of the entry
+    entry: np.ndarray  # (E,) int32 the other way round: entry of each gradient row
     tiles_x: int
     tiles_y: int
 
@@ -57,7 +58,6 @@ class Records(NamedTuple):
     features: np.ndarray  # (N, C) float32
     columns: np.ndarray  # (slots,) int64: the feature of each slot, -1: zero; the first is depth's
     table: np.ndarray  # (M, 6 + slots) float32
-    hits: np.ndarray  # (E,) uint32 by slot: cleared along with the records
 
 
 class Pieces(NamedTuple):
@@ -89,7 +89,7 @@ def empty_bins(lens: Lens, ellipses: Ellipses) -> tuple[Bins, Sorting]:
     bins = Bins(
         take((drawn,), np.int64), take((drawn, 4), np.int32), take((drawn + 1,), np.int64),
         np.zeros(tiles_x * tiles_y + 1, np.int64), take((entries,), np.int32), take((entries,), np.int32),
-        tiles_x, tiles_y,
+        take((entries,), np.int32), tiles_x, tiles_y,
     )  # fmt: skip
     starts = np.zeros((DIGITS, (1 << RADIX_BITS) + 1), np.int64)
     following = np.empty(tiles_x * tiles_y, np.int64)
@@ -180,7 +180,7 @@ def sort_and_count(stage: Stage, box: np.ndarray, bins: Bins, sorting: Sorting) 
 
 @inlined
 def scatter_entries(first: int, stop: int, bins: Bins, following: np.ndarray) -> None:
-    """Fill rank and slot of the entries in tile rows first..stop-1, tile by tile in depth order."""
+    """Fill rank and slot of the entries, and entry, in tile rows first..stop-1, tile by tile in depth order."""
     for rank in range(bins.box.shape[0]):
         x0, x1, y0, y1 = _tiles(bins.box, rank)
         for y in range(larger(y0, first), smaller(y1 + 1, stop)):
@@ -190,6 +190,7 @@ def scatter_entries(first: int, stop: int, bins: Bins, following: np.ndarray) ->
                 following[y * bins.tiles_x + x] = entry + 1
                 bins.rank[entry] = rank
                 bins.slot[entry] = slot
+                bins.entry[slot] = entry
                 slot += 1
 
 
@@ -207,8 +208,6 @@ def gather(start: int, stop: int, bins: Bins, ellipses: Ellipses, records: Recor
         records.table[rank, GEOMETRY] = ellipses.depth[i]
         for k in range(1, columns.size):
             records.table[rank, GEOMETRY + k] = features[i, columns[k]] if columns[k] >= 0 else np.float32(0)
-    for slot in range(bins.first_slot[start], bins.first_slot[stop]):
-        records.hits[slot] = 0
 
 
 @kernel

@@ -81,7 +81,7 @@ class Drawing(NamedTuple):
     stride: int  # floats of a block's state, state_floats(slots)
     attached: int  # the first of them that give gradient to geometry, even
     planes: np.ndarray  # ((1 + slots) * padded height * padded width,) float32: alpha, then slots
-    hits: np.ndarray  # (E,) uint32 by slot: the blocks an entry reached in time
+    hits: np.ndarray  # (E,) uint32 the blocks an entry reached in time; by entry, so that tiles share no cache lines
     width: int
     height: int
 
@@ -307,8 +307,10 @@ def draw_tile(tile: int, drawing: Drawing, bins: Bins, scratch: np.ndarray, mark
         take_chunk(drawing, bins, (first, first + count), (left, top, alive), scratch, marks)
         alive = draw_chunk(drawing, alive, count, scratch, marks)
         for k in range(count):
-            drawing.hits[bins.slot[first + k]] = marks[k]
+            drawing.hits[first + k] = marks[k]
         first += count
+    for entry in range(first, last):
+        drawing.hits[entry] = 0
     write_tile(drawing, scratch, left, top, pitch, pitch * bins.tiles_y * TILE)
 
 

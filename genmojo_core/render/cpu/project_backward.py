@@ -53,16 +53,16 @@ class Sums(NamedTuple):
 
     rows: np.ndarray  # (E * row,) float32
     row: int
-    hits: np.ndarray  # (E,) uint32; rows of entries without hits were never written
+    hits: np.ndarray  # (E,) uint32 by entry; rows of entries without hits were never written
     columns: np.ndarray  # (slots,) int64: the feature each channel slot belongs to, -1 for none
 
 
 @inlined
-def add_rows(sums: Sums, first: int, last: int, scratch: np.ndarray) -> bool:
-    """Sum the rows of slots first..last-1 into the scratch's TOTAL; False where none was hit."""
+def add_rows(sums: Sums, bins: Bins, rank: int, scratch: np.ndarray) -> bool:
+    """Sum the rows of a splat into the scratch's TOTAL; False where none was hit."""
     hit = False
-    for slot in range(first, last):
-        if sums.hits[slot] == 0:
+    for slot in range(bins.first_slot[rank], bins.first_slot[rank + 1]):
+        if sums.hits[bins.entry[slot]] == 0:
             continue
         for k in range(0, sums.row, LANES):
             value = load8(sums.rows, slot * sums.row + k)
@@ -273,7 +273,7 @@ def gather_range(
     filled = 0
     for rank in range(span[0], span[1]):
         fetch(bins.order[smaller(rank + AHEAD, span[1] - 1)], cloud, out)
-        if add_rows(sums, bins.first_slot[rank], bins.first_slot[rank + 1], scratch):
+        if add_rows(sums, bins, rank, scratch):
             i = bins.order[rank]
             out.opacities[i] += scratch[TOTAL] / cloud.opacities[i]
             for k in range(1, sums.columns.size):

@@ -1,4 +1,4 @@
-"""The CPU rasteriser on numpy arrays: project -> bins -> forward, and backward -> project_backward.
+"""The CPU rasteriser on numpy arrays: project -> bins -> forward, and upstream -> backward -> project_backward.
 
 `rasterize` draws. `draw` also returns what `backward` needs. Features beyond 15 are drawn in further passes over the
 same bins; their contributions to the geometry's gradient add up.
@@ -41,8 +41,8 @@ from genmojo_core.render.cpu.upstream import Planes, Upstream, spread_upstream, 
 from genmojo_core.render.rasterizer import Rendering, Splats
 
 MAX_SLOTS = 16  # channels of one pass, depth included
-SPLATS_PER_JOB, SPLAT_JOBS = 2048, 8
-RANKS_PER_JOB, TILE_JOBS = 1024, 128
+SPLATS_PER_JOB, RANKS_PER_JOB = 512, 1024
+TILE_JOBS = 512
 LINE_FLOATS = LINE // 4
 
 
@@ -147,7 +147,7 @@ def draw(
         take((count, GEOMETRY)), take((count,)), take((count, 4), np.int32), np.zeros(2, np.int64)
     )  # fmt: skip
     with Team() as team:
-        team.run(lambda stage: project_splats(stage, lens, cloud, ellipses), count, _splat_chunk(count))
+        team.run(lambda stage: project_splats(stage, lens, cloud, ellipses), count, SPLATS_PER_JOB)
         bins, sorting = empty_bins(lens, ellipses)
         team.run(lambda stage: sort_and_count(stage, ellipses.box, bins, sorting), HALVES)
         drawn = Drawn(lens, cloud, bins, features.shape[1])
@@ -198,7 +198,7 @@ def _draw_pass(
     planes = take((1 + slots, bins.tiles_y * TILE, bins.tiles_x * TILE))
     hits = take((len(bins.rank),), np.uint32)
     table = flat[:-LANES].reshape(count, GEOMETRY + slots)
-    records = Records(features, layout.feature_of_slot(), table, hits)
+    records = Records(features, layout.feature_of_slot(), table)
     bands = 0 if drawn.passes else min(team.threads, bins.tiles_y)  # for each of them all splats are walked
     sizes = Pieces(bands, -(-bins.tiles_y // max(bands, 1)), RANKS_PER_JOB)
     pieces = bands + -(-count // RANKS_PER_JOB)
@@ -220,8 +220,9 @@ def _empty_gradients(drawn: Drawn, *, with_pose: bool) -> tuple[Gradients, np.nd
     for shape, size in zip(shapes, sizes, strict=True):
         arrays.append(numbers[start : start + math.prod(shape)].reshape(shape))
         start += size
-    jobs = -(-ranks // _splat_chunk(ranks)) if with_pose else 0
-    return Gradients(*arrays, np.zeros((jobs, 12))), numbers
+    means, quats, scales, opacities, features = arrays
+    jobs = -(-ranks // SPLATS_PER_JOB) if with_pose else 0
+    return Gradients(means, quats, scales, opacities, features, np.zeros((jobs, 12))), numbers
 
 
 def _add_gradients(
@@ -239,20 +240,13 @@ def _add_gradients(
     team.run(lambda stage: slope_tiles(stage, drawing, bins, slopes, scratch(floats)), tiles, _tile_chunk(bins))
     sums, scene = Sums(slopes.rows, row, drawing.hits, features[1:]), (drawn.lens, drawn.cloud)
     ranks = len(bins.order)
-    team.run(
-        lambda stage: gather_gradients(stage, bins, scene, sums, out, scratch(SCRATCH)), ranks, _splat_chunk(ranks)
-    )
+    team.run(lambda stage: gather_gradients(stage, bins, scene, sums, out, scratch(SCRATCH)), ranks, SPLATS_PER_JOB)
 
 
 def _room(floats: int) -> tuple[np.ndarray, np.ndarray]:
     """The calling thread's scratch for `draw_tiles`: (floats,) float32 and (MARKS,) int64."""
     whole = scratch(2 * MARKS + floats)
     return whole[2 * MARKS :], whole[: 2 * MARKS].view(np.int64)
-
-
-def _splat_chunk(count: int) -> int:
-    """Splats per job: as many jobs as several threads can share evenly, few where there is little to do."""
-    return min(SPLATS_PER_JOB, max(SPLATS_PER_JOB // SPLAT_JOBS, -(-count // SPLAT_JOBS)))
 
 
 def _tile_chunk(bins: Bins) -> int:
