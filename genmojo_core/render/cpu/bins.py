@@ -33,6 +33,7 @@ class Bins(NamedTuple):
     """Splats of one view by depth and by tile. M drawn splats, E entries, T tiles (row by row)."""
 
     order: np.ndarray  # (M,) int64 index of the splat at each rank
+    rank_of: np.ndarray  # (N,) int32 the other way round, -1 for splats that are not drawn
     box: np.ndarray  # (M, 4) int32 as in Ellipses, by rank
     first_slot: np.ndarray  # (M + 1,) int64
     tile_start: np.ndarray  # (T + 1,) int64 first entry of each tile
@@ -87,7 +88,8 @@ def empty_bins(lens: Lens, ellipses: Ellipses) -> tuple[Bins, Sorting]:
         )
     tiles_x, tiles_y = -(-lens.width // TILE), -(-lens.height // TILE)
     bins = Bins(
-        take((drawn,), np.int64), take((drawn, 4), np.int32), take((drawn + 1,), np.int64),
+        take((drawn,), np.int64), take(ellipses.depth.shape, np.int32),
+        take((drawn, 4), np.int32), take((drawn + 1,), np.int64),
         np.zeros(tiles_x * tiles_y + 1, np.int64), take((entries,), np.int32), take((entries,), np.int32),
         take((entries,), np.int32), tiles_x, tiles_y,
     )  # fmt: skip
@@ -137,10 +139,13 @@ def _tiles(box: np.ndarray, row: int) -> tuple:
 
 @inlined
 def count_slots(box: np.ndarray, bins: Bins) -> None:
-    """Copy the boxes into depth order and count their tiles into first_slot."""
+    """Copy the boxes into depth order, count their tiles into first_slot, and fill rank_of."""
     bins.first_slot[0] = 0
+    for i in range(box.shape[0]):
+        bins.rank_of[i] = -1
     for rank in range(bins.order.size):
         i = bins.order[rank]
+        bins.rank_of[i] = rank
         prefetch(box, 4 * bins.order[smaller(rank + AHEAD, bins.order.size - 1)])
         for k in range(4):
             bins.box[rank, k] = box[i, k]

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from genmojo_core.kernels.cache import inlined, kernel
-from genmojo_core.kernels.scalars import smaller
+from genmojo_core.kernels.scalars import larger, smaller
 from genmojo_core.kernels.simd import fma, load8, prefetch, select8, splat8, store8, store_rows
 from genmojo_core.kernels.stage import Stage, begin, claim, end_of, meet
 from genmojo_core.render.cpu.bins import Bins
@@ -32,8 +32,8 @@ AHEAD = 8  # splats
 MEAN, QUAT, SCALE, SUMS = 0, 3, 7, 10  # 3, 4 (unit), 3 and 7 rows of input
 ALONG, POSE = 17, 28  # results: mean 3, quaternion 4 (before the normalisation), scales 3, spare; then pose 12
 TOTAL = 40 * LANES  # a splat's summed row, up to 24 floats
-RANKS = TOTAL + 24  # the rank in each lane, counted from the job's first
-INVERSES = RANKS + LANES  # 1 / length of its quaternion
+PLACES = TOTAL + 24  # the splat in each lane, counted from the job's first
+INVERSES = PLACES + LANES  # 1 / length of its quaternion
 SCRATCH = INVERSES + LANES
 
 
@@ -251,30 +251,21 @@ def hand_out(scratch: np.ndarray, lane: int, i: int, inverse: float, out: Gradie
 
 
 @inlined
-def fetch(i: int, cloud: Cloud, out: Gradients) -> None:
-    """Ask for the memory of a splat that comes soon: depth order jumps about in it."""
-    prefetch(cloud.means, 3 * i)
-    prefetch(cloud.quats, 4 * i)
-    prefetch(cloud.scales, 3 * i)
-    prefetch(out.means, 3 * i)
-    prefetch(out.quats, 4 * i)
-    prefetch(out.scales, 3 * i)
-    prefetch(out.features, out.features.shape[1] * i)
-
-
-@inlined
 def gather_range(
     job: int, span: tuple, bins: Bins, scene: tuple, sums: Sums, out: Gradients, scratch: np.ndarray
 ) -> None:
-    """Add the gradients of the splats at ranks span[0]..span[1]-1."""
+    """Add the gradients of splats span[0]..span[1]-1."""
     lens, cloud = scene
     for k in range(0, SCRATCH, LANES):
         store8(scratch, k, splat8(np.float32(1)))  # lanes never filled stay harmless
     filled = 0
-    for rank in range(span[0], span[1]):
-        fetch(bins.order[smaller(rank + AHEAD, span[1] - 1)], cloud, out)
-        if add_rows(sums, bins, rank, scratch):
-            i = bins.order[rank]
+    for i in range(span[0], span[1]):
+        rank, coming = bins.rank_of[i], bins.rank_of[smaller(i + AHEAD, span[1] - 1)]
+        slot = bins.first_slot[larger(coming, 0)]  # rows lie by depth: memory to jump about in
+        prefetch(sums.rows, slot * sums.row)
+        prefetch(sums.rows, (slot + 1) * sums.row)
+        prefetch(bins.entry, slot)
+        if rank >= 0 and add_rows(sums, bins, rank, scratch):
             out.opacities[i] += scratch[TOTAL] / cloud.opacities[i]
             for k in range(1, sums.columns.size):
                 if sums.columns[k] >= 0:
@@ -283,20 +274,20 @@ def gather_range(
             for k in range(4):
                 square += float(cloud.quats[i, k]) * float(cloud.quats[i, k])
             inverse = np.float32(1.0 / math.sqrt(square))
-            scratch[RANKS + filled], scratch[INVERSES + filled] = rank - span[0], inverse
+            scratch[PLACES + filled], scratch[INVERSES + filled] = i - span[0], inverse
             collect(scratch, filled, cloud, i, inverse)
             filled += 1
-        if filled == LANES or (rank == span[1] - 1 and filled > 0):
+        if filled == LANES or (i == span[1] - 1 and filled > 0):
             slopes_of_eight(lens, scratch)
             for lane in range(filled):
-                i = bins.order[span[0] + np.int64(scratch[RANKS + lane])]
-                hand_out(scratch, lane, i, scratch[INVERSES + lane], out, job)
+                at = span[0] + np.int64(scratch[PLACES + lane])
+                hand_out(scratch, lane, at, scratch[INVERSES + lane], out, job)
             filled = 0
 
 
 @kernel
 def gather_gradients(stage: Stage, bins: Bins, scene: tuple, sums: Sums, out: Gradients, scratch: np.ndarray) -> None:
-    """Add the gradients of the splats at the ranks of a stage, a job per piece; scene = (lens, cloud).
+    """Add the gradients of the splats of a stage, a job per piece; scene = (lens, cloud).
 
     scratch: SCRATCH float32, of any content.
     """

@@ -213,7 +213,7 @@ def _draw_pass(
 
 def _empty_gradients(drawn: Drawn, *, with_pose: bool) -> tuple[Gradients, np.ndarray]:
     """Gradients of any content, and all numbers of the splats' side by side."""
-    count, ranks = len(drawn.cloud.means), len(drawn.bins.order)
+    count = len(drawn.cloud.means)
     shapes = ((count, 3), (count, 4), (count, 3), (count,), (count, drawn.features))
     sizes = [-(-math.prod(shape) // LINE_FLOATS) * LINE_FLOATS for shape in shapes]
     numbers, arrays, start = take((sum(sizes),)), [], 0
@@ -221,7 +221,7 @@ def _empty_gradients(drawn: Drawn, *, with_pose: bool) -> tuple[Gradients, np.nd
         arrays.append(numbers[start : start + math.prod(shape)].reshape(shape))
         start += size
     means, quats, scales, opacities, features = arrays
-    jobs = -(-ranks // SPLATS_PER_JOB) if with_pose else 0
+    jobs = -(-count // SPLATS_PER_JOB) if with_pose else 0
     return Gradients(means, quats, scales, opacities, features, np.zeros((jobs, 12))), numbers
 
 
@@ -239,8 +239,8 @@ def _add_gradients(
     tiles = bins.tiles_x * bins.tiles_y
     team.run(lambda stage: slope_tiles(stage, drawing, bins, slopes, scratch(floats)), tiles, _tile_chunk(bins))
     sums, scene = Sums(slopes.rows, row, drawing.hits, features[1:]), (drawn.lens, drawn.cloud)
-    ranks = len(bins.order)
-    team.run(lambda stage: gather_gradients(stage, bins, scene, sums, out, scratch(SCRATCH)), ranks, SPLATS_PER_JOB)
+    count = len(drawn.cloud.means)
+    team.run(lambda stage: gather_gradients(stage, bins, scene, sums, out, scratch(SCRATCH)), count, SPLATS_PER_JOB)
 
 
 def _room(floats: int) -> tuple[np.ndarray, np.ndarray]:
