@@ -176,7 +176,7 @@ def test_n09_index_maths_holds_for_sizes_that_overflow_32_bits(width: int, heigh
             empty_bins(lens, ellipses)
     elif width * height < 2**30:
         bins, sorting = empty_bins(lens, ellipses)
-        sort_and_count(alone(HALVES), box, bins, sorting)
+        sort_and_count(alone(HALVES, 1), box, bins, sorting)
         assert len(bins.rank) == bins.tile_start[-1] == bins.first_slot[-1] == expected
 
 

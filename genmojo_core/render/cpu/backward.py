@@ -36,7 +36,7 @@ from genmojo_core.kernels.simd import (
     store_rows,
     sum_rows,
 )  # fmt: skip
-from genmojo_core.kernels.stage import Stage, begin, claim, end_of, meet
+from genmojo_core.kernels.stage import Stage, begin, claim, meet
 from genmojo_core.render.cpu.bins import Bins
 from genmojo_core.render.cpu.forward import (
     AHEAD,
@@ -197,46 +197,38 @@ def channel_sums(scratch: np.ndarray, hit: int, slots: int, stride: int) -> None
         first += 4
 
 
-@inlined
-def slope_tile(tile: int, drawing: Drawing, bins: Bins, slopes: Slopes, scratch: np.ndarray) -> None:
-    """Write the gradient rows of all entries of one tile that forward saw."""
-    slots, last = drawing.slots, bins.tile_start[tile + 1]
-    width, stride = GEOMETRY + slots, (HEADER + slots) * LANES
-    pitch = bins.tiles_x * TILE
-    left, top = (tile % bins.tiles_x) * TILE, (tile // bins.tiles_x) * TILE
-    if bins.tile_start[tile] < last:
-        read_tile(drawing, slopes, scratch, (left, top, pitch, pitch * bins.tiles_y * TILE))
-    corner = (np.float32(left), np.float32(top))
-    for entry in range(bins.tile_start[tile], last):
-        hit = np.int64(drawing.hits[entry])
-        if hit == 0:
-            continue
-        slot = bins.slot[entry]
-        coming = smaller(entry + AHEAD, last - 1)
-        prefetch(drawing.records, bins.rank[coming] * width)
-        prefetch(slopes.rows, bins.slot[coming] * slopes.row)
-        at = bins.rank[entry] * width
-        write_alphas(drawing.records, at, hit, corner, scratch)
-        replay(drawing.records, at + GEOMETRY, hit, (drawing.attached, stride), scratch)
-        moments(drawing.records, at, hit, stride, corner, scratch)
-        channel_sums(scratch, hit, slots, stride)
-        for k in range(0, slopes.row, LANES):
-            store8(slopes.rows, slot * slopes.row + k, sum_rows(scratch, SUMS + k * LANES))
-
-
 @kernel
 def slope_tiles(stage: Stage, drawing: Drawing, bins: Bins, slopes: Slopes, scratch: np.ndarray) -> None:
-    """Write the gradient rows of the tiles of a stage.
+    """Write the gradient rows of all entries that forward saw of the tiles of a stage.
 
     scratch: `slope_floats(slots)` float32, of any content.
     """
     begin(stage)
+    slots, pitch = drawing.slots, bins.tiles_x * TILE
+    width, stride = GEOMETRY + slots, (HEADER + slots) * LANES
     for i in range(0, scratch.size, LANES):
         store8(scratch, i, splat8(np.float32(0)))
     prepare(scratch)
-    first = claim(stage)
-    while first < stage.size:
-        for tile in range(first, end_of(stage, first)):
-            slope_tile(tile, drawing, bins, slopes, scratch)
-        first = claim(stage)
+    tile = claim(stage)
+    while tile < stage.size:
+        left, top = (tile % bins.tiles_x) * TILE, (tile // bins.tiles_x) * TILE
+        last = bins.tile_start[tile + 1]
+        if bins.tile_start[tile] < last:
+            read_tile(drawing, slopes, scratch, (left, top, pitch, pitch * bins.tiles_y * TILE))
+        corner = (np.float32(left), np.float32(top))
+        for entry in range(bins.tile_start[tile], last):
+            hit = np.int64(drawing.hits[entry])
+            if hit == 0:
+                continue
+            slot, coming = bins.slot[entry], smaller(entry + AHEAD, last - 1)
+            prefetch(drawing.records, bins.rank[coming] * width)
+            prefetch(slopes.rows, bins.slot[coming] * slopes.row)
+            at = bins.rank[entry] * width
+            write_alphas(drawing.records, at, hit, corner, scratch)
+            replay(drawing.records, at + GEOMETRY, hit, (drawing.attached, stride), scratch)
+            moments(drawing.records, at, hit, stride, corner, scratch)
+            channel_sums(scratch, hit, slots, stride)
+            for k in range(0, slopes.row, LANES):
+                store8(slopes.rows, slot * slopes.row + k, sum_rows(scratch, SUMS + k * LANES))
+        tile = claim(stage)
     meet(stage)

@@ -41,7 +41,7 @@ from genmojo_core.kernels.simd import (
     store8,
     store_rows,
 )  # fmt: skip
-from genmojo_core.kernels.stage import Stage, begin, claim, end_of, meet
+from genmojo_core.kernels.stage import Stage, begin, claim, meet
 from genmojo_core.render.cpu.bins import Bins
 from genmojo_core.render.cpu.project import GEOMETRY, TILE
 from genmojo_core.render.rasterizer import ALPHA_MAX, ALPHA_MIN, TRANSMITTANCE_MIN
@@ -291,40 +291,33 @@ def write_tile(drawing: Drawing, scratch: np.ndarray, left: int, top: int, pitch
             store4x2(drawing.planes, place, place + pitch, value)
 
 
-@inlined
-def draw_tile(tile: int, drawing: Drawing, bins: Bins, scratch: np.ndarray, marks: np.ndarray) -> None:
-    """Blend one tile into the planes and record what each block has seen."""
-    pitch = bins.tiles_x * TILE
-    left, top = (tile % bins.tiles_x) * TILE, (tile // bins.tiles_x) * TILE
-    for i in range(STATE, STATE + BLOCKS * drawing.stride, LANES):
-        store8(scratch, i, splat8(np.float32(0)))
-    for block in range(BLOCKS):
-        store8(scratch, STATE + block * drawing.stride, splat8(np.float32(1)))
-    alive = inside_mask(left, top, drawing.width, drawing.height)
-    first, last = bins.tile_start[tile], bins.tile_start[tile + 1]
-    while first < last and alive != 0:
-        count = smaller(CHUNK, last - first)
-        take_chunk(drawing, bins, (first, first + count), (left, top, alive), scratch, marks)
-        alive = draw_chunk(drawing, alive, count, scratch, marks)
-        for k in range(count):
-            drawing.hits[first + k] = marks[k]
-        first += count
-    for entry in range(first, last):
-        drawing.hits[entry] = 0
-    write_tile(drawing, scratch, left, top, pitch, pitch * bins.tiles_y * TILE)
-
-
 @kernel
 def draw_tiles(stage: Stage, drawing: Drawing, bins: Bins, scratch: np.ndarray, marks: np.ndarray) -> None:
-    """Blend the tiles of a stage.
+    """Blend the tiles of a stage into the planes and record what each block has seen.
 
     scratch: `drawing_floats(slots)` float32, marks: MARKS int64, of any content.
     """
     begin(stage)
+    stride, pitch = drawing.stride, bins.tiles_x * TILE
     prepare(scratch)
-    first = claim(stage)
-    while first < stage.size:
-        for tile in range(first, end_of(stage, first)):
-            draw_tile(tile, drawing, bins, scratch, marks)
-        first = claim(stage)
+    tile = claim(stage)
+    while tile < stage.size:
+        left, top = (tile % bins.tiles_x) * TILE, (tile // bins.tiles_x) * TILE
+        for i in range(STATE, STATE + BLOCKS * stride, LANES):
+            store8(scratch, i, splat8(np.float32(0)))
+        for block in range(BLOCKS):
+            store8(scratch, STATE + block * stride, splat8(np.float32(1)))
+        alive = inside_mask(left, top, drawing.width, drawing.height)
+        first, last = bins.tile_start[tile], bins.tile_start[tile + 1]
+        while first < last and alive != 0:
+            count = smaller(CHUNK, last - first)
+            take_chunk(drawing, bins, (first, first + count), (left, top, alive), scratch, marks)
+            alive = draw_chunk(drawing, alive, count, scratch, marks)
+            for k in range(count):
+                drawing.hits[first + k] = marks[k]
+            first += count
+        for entry in range(first, last):
+            drawing.hits[entry] = 0
+        write_tile(drawing, scratch, left, top, pitch, pitch * bins.tiles_y * TILE)
+        tile = claim(stage)
     meet(stage)

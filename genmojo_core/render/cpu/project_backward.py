@@ -250,41 +250,6 @@ def hand_out(scratch: np.ndarray, lane: int, i: int, inverse: float, out: Gradie
         out.pose[job, k] += scratch[(POSE + k) * LANES + lane]
 
 
-@inlined
-def gather_range(
-    job: int, span: tuple, bins: Bins, scene: tuple, sums: Sums, out: Gradients, scratch: np.ndarray
-) -> None:
-    """Add the gradients of splats span[0]..span[1]-1."""
-    lens, cloud = scene
-    for k in range(0, SCRATCH, LANES):
-        store8(scratch, k, splat8(np.float32(1)))  # lanes never filled stay harmless
-    filled = 0
-    for i in range(span[0], span[1]):
-        rank, coming = bins.rank_of[i], bins.rank_of[smaller(i + AHEAD, span[1] - 1)]
-        slot = bins.first_slot[larger(coming, 0)]  # rows lie by depth: memory to jump about in
-        prefetch(sums.rows, slot * sums.row)
-        prefetch(sums.rows, (slot + 1) * sums.row)
-        prefetch(bins.entry, slot)
-        if rank >= 0 and add_rows(sums, bins, rank, scratch):
-            out.opacities[i] += scratch[TOTAL] / cloud.opacities[i]
-            for k in range(1, sums.columns.size):
-                if sums.columns[k] >= 0:
-                    out.features[i, sums.columns[k]] = scratch[TOTAL + MOMENTS + k]
-            square = 0.0
-            for k in range(4):
-                square += float(cloud.quats[i, k]) * float(cloud.quats[i, k])
-            inverse = np.float32(1.0 / math.sqrt(square))
-            scratch[PLACES + filled], scratch[INVERSES + filled] = i - span[0], inverse
-            collect(scratch, filled, cloud, i, inverse)
-            filled += 1
-        if filled == LANES or (i == span[1] - 1 and filled > 0):
-            slopes_of_eight(lens, scratch)
-            for lane in range(filled):
-                at = span[0] + np.int64(scratch[PLACES + lane])
-                hand_out(scratch, lane, at, scratch[INVERSES + lane], out, job)
-            filled = 0
-
-
 @kernel
 def gather_gradients(stage: Stage, bins: Bins, scene: tuple, sums: Sums, out: Gradients, scratch: np.ndarray) -> None:
     """Add the gradients of the splats of a stage, a job per piece; scene = (lens, cloud).
@@ -292,8 +257,35 @@ def gather_gradients(stage: Stage, bins: Bins, scene: tuple, sums: Sums, out: Gr
     scratch: SCRATCH float32, of any content.
     """
     begin(stage)
+    lens, cloud = scene
     first = claim(stage)
     while first < stage.size:
-        gather_range(first // stage.chunk, (first, end_of(stage, first)), bins, scene, sums, out, scratch)
+        last, filled = end_of(stage, first) - 1, 0
+        for k in range(0, SCRATCH, LANES):
+            store8(scratch, k, splat8(np.float32(1)))  # lanes never filled stay harmless
+        for i in range(first, last + 1):
+            rank = bins.rank_of[i]
+            slot = bins.first_slot[larger(bins.rank_of[smaller(i + AHEAD, last)], 0)]
+            prefetch(bins.entry, slot)  # entries and rows lie by depth: memory to jump about in
+            prefetch(sums.rows, slot * sums.row)
+            prefetch(sums.rows, (slot + 1) * sums.row)
+            if rank >= 0 and add_rows(sums, bins, rank, scratch):
+                out.opacities[i] += scratch[TOTAL] / cloud.opacities[i]
+                for k in range(1, sums.columns.size):
+                    if sums.columns[k] >= 0:
+                        out.features[i, sums.columns[k]] = scratch[TOTAL + MOMENTS + k]
+                square = 0.0
+                for k in range(4):
+                    square += float(cloud.quats[i, k]) * float(cloud.quats[i, k])
+                inverse = np.float32(1.0 / math.sqrt(square))
+                scratch[PLACES + filled], scratch[INVERSES + filled] = i - first, inverse
+                collect(scratch, filled, cloud, i, inverse)
+                filled += 1
+            if filled == LANES or (i == last and filled > 0):
+                slopes_of_eight(lens, scratch)
+                for lane in range(filled):
+                    at = first + np.int64(scratch[PLACES + lane])
+                    hand_out(scratch, lane, at, scratch[INVERSES + lane], out, first // stage.chunk)
+                filled = 0
         first = claim(stage)
     meet(stage)

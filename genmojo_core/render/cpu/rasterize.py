@@ -42,7 +42,6 @@ from genmojo_core.render.rasterizer import Rendering, Splats
 
 MAX_SLOTS = 16  # channels of one pass, depth included
 SPLATS_PER_JOB, RANKS_PER_JOB = 512, 1024
-TILE_JOBS = 512
 LINE_FLOATS = LINE // 4
 
 
@@ -207,7 +206,7 @@ def _draw_pass(
         flat, slots, state_floats(slots), layout.attached_slots, planes.ravel(), hits, lens.width, lens.height
     )  # fmt: skip
     floats, tiles = drawing_floats(slots), bins.tiles_x * bins.tiles_y
-    team.run(lambda stage: draw_tiles(stage, drawing, bins, *_room(floats)), tiles, _tile_chunk(bins))
+    team.run(lambda stage: draw_tiles(stage, drawing, bins, *_room(floats)), tiles)
     return Pass(layout, drawing, planes)
 
 
@@ -237,7 +236,7 @@ def _add_gradients(
     row = -(-(MOMENTS + layout.slots) // 8) * 8
     slopes, floats = Slopes(planes.values, take((len(bins.rank) * row,)), row), slope_floats(layout.slots)
     tiles = bins.tiles_x * bins.tiles_y
-    team.run(lambda stage: slope_tiles(stage, drawing, bins, slopes, scratch(floats)), tiles, _tile_chunk(bins))
+    team.run(lambda stage: slope_tiles(stage, drawing, bins, slopes, scratch(floats)), tiles)
     sums, scene = Sums(slopes.rows, row, drawing.hits, features[1:]), (drawn.lens, drawn.cloud)
     count = len(drawn.cloud.means)
     team.run(lambda stage: gather_gradients(stage, bins, scene, sums, out, scratch(SCRATCH)), count, SPLATS_PER_JOB)
@@ -247,11 +246,6 @@ def _room(floats: int) -> tuple[np.ndarray, np.ndarray]:
     """The calling thread's scratch for `draw_tiles`: (floats,) float32 and (MARKS,) int64."""
     whole = scratch(2 * MARKS + floats)
     return whole[2 * MARKS :], whole[: 2 * MARKS].view(np.int64)
-
-
-def _tile_chunk(bins: Bins) -> int:
-    """Tiles per piece: so many pieces that threads end together."""
-    return max(1, bins.tiles_x * bins.tiles_y // TILE_JOBS)
 
 
 def _even(number: int) -> int:
