@@ -23,8 +23,9 @@ from genmojo_core.store.scene_file import BakedScene, Frame
 from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE, PointTracks
 
 CARRIERS = 16  # Gaussians that carry one query at most
-BEHIND = 0.04  # of the object's size: farther behind its own rendered surface is its hidden side
-NEARBY = 0.0075  # of the short side: places are good to about this, so the surface is looked up this far around
+BEHIND = 0.02  # of the object's size: farther behind its own rendered surface is its hidden side
+NEARBY = 0.01  # of the short side: places are good to about this, so the surface is looked up this far around
+SHOWS = 0.4  # of a pixel: what its own object must fill for a point there to be seen; outlines are good to a pixel
 RIM = 0.015  # of the short side: a query on the background this near an object is meant for the object
 TEST_SHORT_SIDE = 384  # pixels at most of the images in which visibility is tested
 _SEEN_ALPHA = 0.5  # coverage from which a pixel shows something
@@ -52,7 +53,7 @@ def track(
 ) -> PointTracks:
     """Tracks of N queries over all frames, in source pixels, with world positions and the owner's id.
 
-    A point is visible where its pixel shows its instance and the point is not behind the instance's own surface there:
+    A point is visible where SHOWS of its pixel is its instance and the point is not behind the instance's own surface:
     a solid hides its far side, at a gap that is small against the distance to the camera but not against the object.
     How far behind is counted from the farthest surface NEARBY (slanted surfaces change depth within the error of a
     place). Outside the picture it is OUT_OF_VIEW. In its own query frame it is the query itself.
@@ -114,8 +115,9 @@ def _carriers(scene: BakedScene, t: np.ndarray, xy: np.ndarray) -> Carriers:
         means, conics, depth = _project_splats(frame, view)
         turns = quaternion_to_matrix(frame.quats.astype(np.float64))
         camera_to_world = np.linalg.inv(view.world_to_camera)
-        winners, alpha, _ = _labels(scene, frame, view)
-        on_object = ~np.array([o.is_background for o in scene.objects])[winners] & (alpha > _SEEN_ALPHA)
+        shares, _ = _shares(scene, frame, view)
+        of_objects = ~np.array([o.is_background for o in scene.objects])[np.argmax(shares, axis=-1)]
+        on_object = of_objects & (shares.sum(axis=-1) > _SEEN_ALPHA)
         for n in np.flatnonzero(t == i):
             place = _onto_object(xy[n], on_object, view)
             share = _contributions(place, means, conics, depth, frame.opacities)
@@ -215,12 +217,13 @@ def _states(
 ) -> np.ndarray:  # (N,) uint8
     """VISIBLE, OCCLUDED or OUT_OF_VIEW of points at `pixels` (N, 2) and `depth` (N,) in frame i."""
     view = scene.cameras.view(i)
-    winners, alpha, surface = _labels(scene, frame, view)
+    shares, surface = _shares(scene, frame, view)
+    winners = np.argmax(shares, axis=-1)
     height, width = winners.shape
     outside = (pixels < 0).any(axis=1) | (pixels >= [view.width, view.height]).any(axis=1) | (depth <= view.near)
     place = np.floor(pixels * [width / view.width, height / view.height])
     column, row = np.clip(place, 0, [width - 1, height - 1]).astype(np.int64).T
-    shown = (winners[row, column] == owner) & (alpha[row, column] > _SEEN_ALPHA)
+    shown = shares[row, column, owner] > SHOWS
     reach = round(NEARBY * min(width, height))
     around = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1))
     before = np.zeros(len(owner), bool)
@@ -236,15 +239,18 @@ def _size(means: np.ndarray) -> float:  # (N, 3)
     return 2.0 * float(np.percentile(np.linalg.norm(means - np.median(means, axis=0), axis=1), 95))
 
 
-def _labels(scene: BakedScene, frame: Frame, view: View) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Object with the largest share, alpha, and that object's own mean depth (H, W), at TEST_SHORT_SIDE at most."""
+def _shares(scene: BakedScene, frame: Frame, view: View) -> tuple[np.ndarray, np.ndarray]:
+    """Share of every pixel that each object fills (H, W, K), and the mean depth (H, W) of the one with the largest.
+
+    At TEST_SHORT_SIDE at most.
+    """
     scale = min(1.0, TEST_SHORT_SIDE / min(view.width, view.height))
     small = view.resized(max(1, round(view.width * scale)), max(1, round(view.height * scale)))
     labels = np.eye(len(scene.objects), dtype=np.float32)[frame.object_index]
     depths = labels * project(frame.means, view)[1][:, None].astype(np.float32)
     features = np.concatenate([labels, depths], axis=1)
     drawn = rasterize(Splats(frame.means, frame.quats, frame.scales, frame.opacities, features), small)
-    share, depth = np.split(drawn.features, 2, axis=-1)
-    winners = np.argmax(share, axis=-1)[..., None]
-    surface = np.take_along_axis(depth, winners, -1) / np.maximum(np.take_along_axis(share, winners, -1), 1e-4)
-    return winners[..., 0], drawn.alpha, surface[..., 0]
+    shares, depth = np.split(drawn.features, 2, axis=-1)
+    winners = np.argmax(shares, axis=-1)[..., None]
+    surface = np.take_along_axis(depth, winners, -1) / np.maximum(np.take_along_axis(shares, winners, -1), 1e-4)
+    return shares, surface[..., 0]
