@@ -150,10 +150,13 @@ class MainWindow(QMainWindow):
         if kind == "clip":
             self.read_clip(path, self.workspace or "watch")
         elif kind == "project":
-            self._shown_clips["annotate"] = path
-            self.go_to("annotate", lambda: self.workspaces["annotate"].open_clip(path))
+            self.go_to("annotate", lambda: self._open_project(path))
         else:
             self.go_to("watch", lambda: cast(Any, self.workspaces["watch"]).open_path(path, kind))
+
+    def _open_project(self, path: Path) -> None:
+        self._shown_clips["annotate"] = path
+        self.workspaces["annotate"].open_clip(path)
 
     def read_clip(self, path: Path, workspace: str) -> None:
         """Reads a clip on a thread and shows it in a workspace."""

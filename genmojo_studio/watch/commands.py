@@ -8,11 +8,13 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QDockWidget, QFileDialog, QMessageBox
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.atomic import write_bytes
 from genmojo_studio import notify
+from genmojo_studio.actions import ActionTable
 from genmojo_studio.translate import tr
 from genmojo_studio.view3d.look import Mode
 from genmojo_studio.watch.actions import COMPARES, MODES, VIEWS
@@ -140,7 +142,20 @@ def _ask_run(w: WatchWorkspace) -> None:
 def _edit_mask(w: WatchWorkspace) -> None:
     """The annotator takes over where the selected mask is drawn anew; selection and frame are shared."""
     w.table.trigger("window.annotate")
-    w.table.trigger("annotate.step.edit_mask")
+    _do_once_bound(w.table, "annotate.step.edit_mask")
+
+
+def _do_once_bound(table: ActionTable, action_id: str) -> None:
+    """Does an action, or will as soon as the workspace that it belongs to is loaded."""
+    if table.trigger(action_id):
+        return
+
+    def look() -> None:
+        if table.is_bound(action_id):
+            end()
+            QTimer.singleShot(0, lambda: table.trigger(action_id))  # not amid the binding of others
+
+    end = table.subscribe(look)
 
 
 def _toggle(w: WatchWorkspace, name: str) -> None:

@@ -21,10 +21,11 @@ def test_an_edited_mask_reaches_the_plan_and_the_run(window, qtbot, told):
     edited = int(window.state.clip.object_ids[1])
     window.state.set(selected_object=edited)
     assert window.table.trigger("view.edit_mask")
+    qtbot.waitUntil(lambda: window.workspace == "annotate", timeout=60_000)  # it is loaded first
     annotate = window.workspaces["annotate"]
-    assert window.workspace == "annotate" and annotate.step == 0
     qtbot.waitUntil(lambda: annotate.session.clip is not None and annotate.session.active[0] == edited, timeout=60_000)
-    assert annotate.objects.replaced() == edited
+    qtbot.waitUntil(lambda: annotate.objects.replaced() == edited, timeout=60_000)
+    assert annotate.step == 0
     annotate.work.add_box(*_BOX)
     qtbot.waitUntil(lambda: window.state.masks_path is not None, timeout=60_000)
 
