@@ -13,10 +13,10 @@ from genmojo_core.effects.difficulty import Difficulty, difficulty
 from genmojo_core.effects.forecast import Model, cpu_seconds, foretold, step_features, work_of
 from genmojo_core.effects.machine import Machine
 from genmojo_core.optimise import calibrate
-from tests.benchmarks.forecast import non_negative, ridge
+from tests.benchmarks.forecast import decibel_law, non_negative
 from tests.optimise.small_runs import small_clip
 
-MODEL = Model((10.0, 1.0, 2.0, 40.0, 0.0), (0.0, 1.0, 0.0, 0.0), (20.0, 0.0, 0.0, 1.0, 0.0, 0.0), 0.5, 0.1)
+MODEL = Model((10.0, 1.0, 2.0, 40.0, 0.0), (0.0, 1.0, 0.0, 0.0), (20.0, 0.0, 1.0, 0.0, 0.0), 0.5, 0.1)
 CLIP = Difficulty(30.0, 30.0, 20.0, 0.1, 2.0)
 ON = ["background", "instance_labels", "flow", "non_rigid_motion"]
 
@@ -71,11 +71,18 @@ def test_the_fit_finds_the_costs_that_made_the_rows():
     features, truth = rng.random((40, 5)) + 0.1, np.array([3.0, 0.0, 2.0, 7.0, 1.0])
     assert non_negative(features, features @ truth) == pytest.approx(truth, abs=1e-3)
     assert (non_negative(features, features @ np.array([3.0, -2.0, 2.0, 7.0, 1.0])) >= 0).all()
-    x = np.concatenate([np.ones((400, 1)), rng.normal(size=(400, 2))], axis=1)
-    y, clips = x @ np.array([5.0, 2.0, -1.0]), [str(i % 40) for i in range(400)]
-    assert ridge(x, y, clips, np.zeros(2)) == pytest.approx([5.0, 2.0, -1.0], abs=1e-6)
-    drawn = ridge(x, y, clips, np.array([0.0, 1e6]))
-    assert drawn[2] == pytest.approx(0.0, abs=1e-3) and drawn[1] == pytest.approx(2.0, abs=0.1)
+
+
+def test_what_runs_spend_is_told_by_differences_within_clips_and_clips_by_their_means():
+    rng = np.random.default_rng(0)
+    clips = [name for name in "abcd" for _ in range(30)]
+    motion = np.repeat([20.0, 25.0, 30.0, 33.0], 30)
+    spent = rng.normal(size=(120, 3)) + motion[:, None]  # easy clips were run for longer
+    rows = np.column_stack([np.ones(120), motion, spent])
+    law = np.array([-3.0, 0.9, 2.0, 1.0, 0.5])
+    assert decibel_law(rows, rows @ law, clips) == pytest.approx(law, rel=0.02, abs=0.05)
+    law[3] = -1.0
+    assert decibel_law(rows, rows @ law, clips)[3] == 0.0  # more is never foretold to be worse
 
 
 def test_calibrations_are_kept_and_bad_ones_are_none(tmp_path, monkeypatch):
