@@ -27,7 +27,7 @@ from genmojo_core.kernels.cache import inlined
 from genmojo_core.kernels.scalars import smaller
 from genmojo_core.kernels.simd import instruction
 
-NEXT, INSIDE = 0, 1  # places in `Stage.counts`
+TAKEN, LOW, HIGH, INSIDE = 0, 1, 2, 3  # places in `Stage.counts`
 WORDS = 8  # int64 in a cache line
 PATIENCE = 40_000  # rounds of waiting, some 5 ns each: 0.2 ms
 _FACTOR = 6364136223846793005
@@ -37,7 +37,7 @@ class Stage(NamedTuple):
     """A range shared out among threads."""
 
     newest: np.ndarray  # (WORDS,) int64: number of the stage that the leader is in, first; shared by a team's stages
-    counts: np.ndarray  # (WORDS,) int64, zero at first: what nobody has taken yet, threads inside
+    counts: np.ndarray  # (WORDS,) int64, zero at first: pieces taken, from the lower and the upper end; threads inside
     number: int
     size: int
     chunk: int  # of a piece; the last may be smaller
@@ -97,8 +97,17 @@ def begin(stage: Stage) -> None:
 
 @inlined
 def claim(stage: Stage) -> int:
-    """The first number of a piece that nobody else gets; `size` or more where none is left."""
-    return fetch_add(stage.counts, NEXT, stage.chunk)
+    """The first number of a piece that nobody else gets; `size` where none is left.
+
+    The leader takes them from the lower end, helpers from the upper one. So what a thread needs is mostly what it wrote
+    in the stage or picture before, and lies in its own cache.
+    """
+    pieces = (stage.size + stage.chunk - 1) // stage.chunk
+    if fetch_add(stage.counts, TAKEN, 1) >= pieces:
+        return stage.size
+    if stage.leads == 1:
+        return fetch_add(stage.counts, LOW, 1) * stage.chunk
+    return (pieces - 1 - fetch_add(stage.counts, HIGH, 1)) * stage.chunk
 
 
 @inlined
