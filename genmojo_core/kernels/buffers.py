@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import sys
 import threading
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,21 @@ def take(shape: tuple[int, ...], dtype: Any = np.float32) -> np.ndarray:
         return np.empty(shape, dtype)
     with _lock:
         return on_line(_free(size + LINE), size).view(dtype).reshape(shape)
+
+
+def take_together(*wanted: tuple[tuple[int, ...], Any]) -> list[np.ndarray]:
+    """Arrays of these (shape, dtype)s as `take` gives them, out of one block: free once the last view of any is gone.
+
+    The block itself, flat uint8 with all of them side by side, comes last.
+    """
+    sizes = [math.prod(shape) * np.dtype(dtype).itemsize for shape, dtype in wanted]
+    ends = list(accumulate(-(-size // LINE) * LINE for size in sizes))
+    block = take((ends[-1],), np.uint8)
+    found = []
+    for (shape, dtype), size, end in zip(wanted, sizes, ends, strict=True):
+        start = end + (-size // LINE) * LINE
+        found.append(np.ndarray(shape, dtype, block, start))
+    return [*found, block]
 
 
 def on_line(array: np.ndarray, size: int) -> np.ndarray:

@@ -7,9 +7,11 @@ A kernel that works in a stage reads
     while first < stage.size:
         ... first .. end_of(stage, first) - 1 ...
         first = claim(stage)
-    meet(stage)
+    return meet(stage)
 
-and touches nothing shared outside the loop. Who takes which piece must not show in the result. The thread that leads
+and touches nothing shared outside the loop. Who takes which piece must not show in the result. A kernel goes through
+several stages like that, as long as `meet` tells it to go on: who comes back to Python and calls the next kernel takes
+a tenth of a small picture's time for it. The thread that leads
 leaves a stage when all its pieces are done; a helper stays until the next one begins. So a helper wants the
 interpreter's lock only while the leader does not hold it, and neither ever waits for the other to be woken by the
 system, which takes longer than a stage of a small picture. Waiting ends after `PATIENCE` rounds whatever happens.
@@ -28,8 +30,9 @@ from genmojo_core.kernels.scalars import smaller
 from genmojo_core.kernels.simd import instruction
 
 TAKEN, LOW, HIGH, INSIDE = 0, 1, 2, 3  # places in `Stage.counts`
+ENDED = 2**62  # number of no stage
 WORDS = 8  # int64 in a cache line
-PATIENCE = 40_000  # rounds of waiting, some 5 ns each: 0.2 ms
+PATIENCE = 160_000  # rounds of waiting, some 1.2 ns each: 0.2 ms
 _FACTOR = 6364136223846793005
 
 
@@ -120,15 +123,16 @@ def end_of(stage: Stage, first: int) -> int:
 def meet(stage: Stage) -> int:
     """Leave: the leader when all others have, a helper when a later stage has begun, both when patience ends.
 
-    The rounds of waiting left. Between two looks a few multiplications pass the time, each waiting for the last.
+    1 where the next stage may follow at once, 0 where patience or the team's work has ended. Between two looks a
+    multiplication that waits for the last one passes the time.
     """
     fetch_add(stage.counts, INSIDE, -1)
     rounds, number = PATIENCE, stage.number
     while rounds > 0:
         if stage.leads == 1 and look(stage.counts, INSIDE) == 0:
-            break
+            return 1
         if stage.leads == 0 and look(stage.newest, 0) > stage.number:
-            break
-        number = ((number * _FACTOR + 1) * _FACTOR + 1) * _FACTOR + 1
+            return 1 if look(stage.newest, 0) < ENDED else 0
+        number = number * _FACTOR + 1
         rounds -= 1 + (number == 0)
-    return rounds
+    return 0

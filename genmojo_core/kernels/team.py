@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from types import TracebackType
 
 import numpy as np
 
-from genmojo_core.kernels.stage import INSIDE, WORDS, Stage
+from genmojo_core.kernels.stage import ENDED, INSIDE, WORDS, Stage
 from genmojo_core.kernels.threads import helpers_at_hand, submit
 
-ENDED = 2**62  # number of no stage
 NAP = 1e-4  # seconds
 
 
@@ -29,7 +28,8 @@ class Team:
     def __init__(self) -> None:
         self.threads = 1 + helpers_at_hand()
         self._newest = np.zeros(WORDS, np.int64)
-        self._posted: tuple[Callable[[Stage], object], Stage] | None = None
+        self._last = 0  # number of the newest stage that is shared
+        self._posted: tuple[Callable[[tuple[Stage, ...], int], int], tuple[Stage, ...]] | None = None
         self._asked: list[Future[None]] = []
 
     def __enter__(self) -> Team:
@@ -47,15 +47,32 @@ class Team:
 
         The kernel takes its pieces by the rules of kernels/stage.py. Pieces are the same for any number of threads.
         """
-        shared = self.threads > 1 and size > chunk
-        number = (self._posted[1].number if self._posted else 0) + shared
-        stage = Stage(self._newest, np.zeros(WORDS, np.int64), number, size, chunk, 1)
+
+        def only(stages: tuple[Stage, ...], done: int) -> int:
+            kernel(stages[0])
+            return 1
+
+        self.run_all(only, [(size, chunk)])
+
+    def run_all(self, kernel: Callable[[tuple[Stage, ...], int], int], ranges: Sequence[tuple[int, int]]) -> None:
+        """Call kernel(stages, 0) on every thread at hand, a stage for each (size, chunk), and return when all is done.
+
+        The kernel goes through the stages one after the other and returns how many are behind it: all, or fewer where
+        `meet` told it to stop. Then it is called again, with that number, when the next stage may begin.
+        """
+        shared = self.threads > 1 and any(size > chunk for size, chunk in ranges)
+        stages = []
+        for size, chunk in ranges:
+            self._last += shared
+            stages.append(Stage(self._newest, np.zeros(WORDS, np.int64), self._last, size, chunk, 1))
         if shared:
-            self._posted = kernel, stage._replace(leads=0)
+            self._posted = kernel, tuple(one._replace(leads=0) for one in stages)
             self._ask()
-        kernel(stage)
-        while stage.counts[INSIDE] != 0:  # somebody was stopped in the middle of a piece
-            time.sleep(NAP)
+        done = 0
+        while done < len(stages):
+            done = kernel(tuple(stages), done)
+            while stages[done - 1].counts[INSIDE] != 0:  # somebody was stopped in the middle of a piece
+                time.sleep(NAP)
 
     def _ask(self) -> None:
         """Wake helpers in place of those that have none yet or ran out of patience."""
@@ -63,9 +80,13 @@ class Team:
         self._asked += [submit(self._attend) for _ in range(self.threads - 1 - len(self._asked))]
 
     def _attend(self) -> None:
-        """A helper's part: every stage it comes in time for, until none has begun while it waited."""
-        done = 0
-        while self._posted is not None and self._posted[1].number > done and self._newest[0] != ENDED:
-            kernel, stage = self._posted
-            kernel(stage)
-            done = stage.number
+        """A helper's part: every stage it comes in time for, until no kernel has followed while it waited."""
+        last = 0
+        while self._posted is not None and self._posted[1][-1].number > last and self._newest[0] != ENDED:
+            kernel, stages = self._posted
+            done, last = kernel(stages, 0), stages[-1].number
+            while done < len(stages) and self._newest[0] != ENDED:
+                if self._newest[0] > stages[done - 1].number:
+                    done = kernel(stages, done)
+                else:
+                    time.sleep(NAP)  # the leader takes long over a piece

@@ -68,6 +68,9 @@ def run_whole(job: Callable[[int], object], count: int) -> None:
 
     The last ones, fewer than the threads, share all threads.
     """
+    if count == 1:
+        job(0)
+        return
 
     def alone(index: int) -> None:
         before, _local.alone = getattr(_local, "alone", False), True

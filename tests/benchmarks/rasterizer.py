@@ -28,6 +28,7 @@ import torch
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.kernels import threads
+from genmojo_core.kernels.stage import Stage, alone
 from genmojo_core.render import autograd, torch_tiles
 from genmojo_core.render.cpu import rasterize
 from genmojo_core.render.rasterizer import Splats
@@ -116,12 +117,12 @@ def visit(case: Case, passes: int = 3) -> None:
     peak = peak_flops(0.005)
     both_passes(autograd.splat, case.splats, case.view)
     found: dict[str, list[float]] = defaultdict(list)
-    with Stopwatch("draw_tiles") as drawing, Stopwatch("slope_tiles") as sloping:
-        for _ in range(passes):
-            drawing.seconds = sloping.seconds = 0.0
-            times = both_passes(autograd.splat, case.splats, case.view)
-            for name, value in zip(OWN, (*times, drawing.seconds, sloping.seconds), strict=True):
-                found[name].append(value)
+    for _ in range(passes):
+        times = both_passes(autograd.splat, case.splats, case.view)
+        with TilesAgain("bin_and_draw", 2) as drawing, TilesAgain("find_gradients", 1) as sloping:
+            both_passes(autograd.splat, case.splats, case.view)
+        for name, value in zip(OWN, (*times, drawing.seconds, sloping.seconds), strict=True):
+            found[name].append(value)
     for name, values in found.items():
         case.seconds[name] += values
     for name, operations in (("forward", FORWARD_OPERATIONS), ("backward", BACKWARD_OPERATIONS)):
@@ -203,19 +204,25 @@ def both_passes(
     return middle - start, clock() - middle
 
 
-class Stopwatch:
-    """Adds up the CPU time spent in one kernel of render/cpu/rasterize.py while the context is open."""
+class TilesAgain:
+    """While the context is open, a kernel of render/cpu/passes.py goes once more through the tiles, and that alone.
 
-    def __init__(self, name: str) -> None:
-        self.name, self.seconds = name, 0.0
-        self.kernel = getattr(rasterize, name)
+    kernel: its name; stage: which of its stages the tiles are. `seconds` adds up the CPU time of that second time.
+    """
 
-    def __call__(self, *arguments: object) -> None:
+    def __init__(self, kernel: str, stage: int) -> None:
+        self.name, self.stage, self.seconds = kernel, stage, 0.0
+        self.kernel = getattr(rasterize, kernel)
+
+    def __call__(self, stages: tuple[Stage, ...], done: int, *arguments: object) -> int:
+        tiles = [alone(one.size if k == self.stage else 0, one.chunk) for k, one in enumerate(stages)]
+        after = self.kernel(stages, done, *arguments)
         start = time.process_time()
-        self.kernel(*arguments)
+        self.kernel(tuple(tiles), self.stage, *arguments)
         self.seconds += time.process_time() - start
+        return after
 
-    def __enter__(self) -> Stopwatch:
+    def __enter__(self) -> TilesAgain:
         setattr(rasterize, self.name, self)
         return self
 

@@ -11,9 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from genmojo_core.errors import GenmojoError
-from genmojo_core.kernels.stage import alone
+from genmojo_core.kernels.cache import kernel
+from genmojo_core.kernels.stage import Stage, alone
 from genmojo_core.render import autograd, reference, torch_tiles
-from genmojo_core.render.cpu.bins import HALVES, empty_bins, sort_and_count
+from genmojo_core.render.cpu.bins import HALVES, Bins, Sorting, empty_bins, sort_and_count
 from genmojo_core.render.cpu.project import Ellipses, lens_of
 from genmojo_core.render.cpu.rasterize import rasterize
 from genmojo_core.render.rasterizer import Splats
@@ -159,6 +160,11 @@ def test_n08_screens_full_of_splats_are_refused_by_name_and_at_once() -> None:
     assert error.value.code == "budget"
 
 
+@kernel
+def _sort_and_count(stage: Stage, box: np.ndarray, bins: Bins, sorting: Sorting) -> None:
+    sort_and_count(stage, box, bins, sorting)
+
+
 @given(width=st.integers(1, 2**20), height=st.integers(1, 2**20), seed=st.integers(0, 999))
 @settings(max_examples=50, deadline=None)
 def test_n09_index_maths_holds_for_sizes_that_overflow_32_bits(width: int, height: int, seed: int) -> None:
@@ -176,7 +182,7 @@ def test_n09_index_maths_holds_for_sizes_that_overflow_32_bits(width: int, heigh
             empty_bins(lens, ellipses)
     elif width * height < 2**30:
         bins, sorting = empty_bins(lens, ellipses)
-        sort_and_count(alone(HALVES, 1), box, bins, sorting)
+        _sort_and_count(alone(HALVES, 1), box, bins, sorting)
         assert len(bins.rank) == bins.tile_start[-1] == bins.first_slot[-1] == expected
 
 

@@ -110,15 +110,14 @@ def test_a_changed_instruction_is_compiled_again(tmp_path: Path) -> None:
 def test_emitted_code_names_no_processor() -> None:
     """Generic LLVM only, so that ARM compiles the same kernels."""
     from genmojo_core.render.cpu import joint_loss, rasterize
-    from genmojo_core.render.cpu.backward import slope_tiles
-    from genmojo_core.render.cpu.forward import draw_tiles
+    from genmojo_core.render.cpu.passes import bin_and_draw, find_gradients
     from tests.render.scenes import NAMES, camera, random_splats
 
     splats = random_splats(5, 3, 0)
     drawn = rasterize.draw(rasterize.Splats(*(getattr(splats, n).numpy() for n in NAMES)), camera(16, 16))
     rasterize.backward(drawn, drawn.rendering())
     joint_loss.warm_up()
-    for function in (draw_tiles, slope_tiles, joint_loss.compare_rows):
+    for function in (bin_and_draw, find_gradients, joint_loss.compare_rows):
         fresh = numba.njit(nogil=True, error_model="numpy")(function.py_func)  # code from the cache cannot be read
         fresh.compile(function.signatures[0])
         text = fresh.inspect_llvm(function.signatures[0])

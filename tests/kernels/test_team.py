@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 
 from genmojo_core.kernels import threads
-from genmojo_core.kernels.cache import kernel
+from genmojo_core.kernels.cache import inlined, kernel
 from genmojo_core.kernels.stage import Stage, begin, claim, end_of, meet
 from genmojo_core.kernels.team import Team
 
 LONG = 120  # seconds
 
 
-@kernel
-def _count_up(stage: Stage, done: np.ndarray, before: np.ndarray, late: np.ndarray) -> None:
+@inlined
+def _count(stage: Stage, done: np.ndarray, before: np.ndarray, late: np.ndarray) -> int:
     """Add 1 to the stage's numbers; note where the stage before had not done its own yet."""
     begin(stage)
     first = claim(stage)
@@ -28,7 +28,23 @@ def _count_up(stage: Stage, done: np.ndarray, before: np.ndarray, late: np.ndarr
             for k in range(before.size):
                 late[i] += before[k] != 1
         first = claim(stage)
-    meet(stage)
+    return meet(stage)
+
+
+@kernel
+def _count_up(stage: Stage, done: np.ndarray, before: np.ndarray, late: np.ndarray) -> None:
+    _count(stage, done, before, late)
+
+
+@kernel
+def _count_up_thrice(stages: tuple[Stage, Stage, Stage], passed: int, done: tuple, late: tuple) -> int:
+    """Three stages in one call; done: four arrays, the first of which nobody counts up."""
+    if passed < 1 and _count(stages[0], done[1], done[0], late[0]) == 0:
+        return 1
+    if passed < 2 and _count(stages[1], done[2], done[1], late[1]) == 0:
+        return 2
+    _count(stages[2], done[3], done[2], late[2])
+    return 3
 
 
 def _marks(*arrays: np.ndarray) -> Callable[[Stage], object]:
@@ -62,6 +78,27 @@ def test_every_piece_is_done_once_and_before_the_next_stage(count: int) -> None:
                 team.run(_marks(done, before, late), size, chunk)
                 assert (done == 1).all() and not late.any()
                 before = done
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+@pytest.mark.parametrize("work", [1, 1_000_000])
+def test_stages_of_one_kernel_follow_each_other(count: int, work: int) -> None:
+    """Also where a piece takes so long that those who wait for it run out of patience and come back later."""
+    threads.set_threads(count)
+    asked: list[int] = []
+    for _ in range(20 if work == 1 else 3):
+        sizes = (2 * count + 1, 5, 257)
+        done = (np.ones(work, np.int64), *(np.zeros(size, np.int64) for size in sizes))
+        late = tuple(np.zeros(size, np.int64) for size in sizes)
+
+        def kernel(stages: tuple[Stage, ...], passed: int, done: tuple = done, late: tuple = late) -> int:
+            asked.append(passed)
+            return _count_up_thrice(stages, passed, done, late)
+
+        with Team() as team:
+            team.run_all(kernel, [(sizes[0], 1), (sizes[1], 1), (sizes[2], 3)])
+        assert all((one == 1).all() for one in done) and not any(one.any() for one in late)
+    assert count > 1 or not any(asked)  # who is alone never has to come back
 
 
 def test_helpers_go_to_sleep_when_nothing_follows_and_come_back() -> None:

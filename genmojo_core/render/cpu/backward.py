@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from genmojo_core.kernels.cache import inlined, kernel
+from genmojo_core.kernels.cache import inlined
 from genmojo_core.kernels.lane_bits import trailing_zeros
 from genmojo_core.kernels.scalars import smaller
 from genmojo_core.kernels.simd import (
@@ -197,8 +197,8 @@ def channel_sums(scratch: np.ndarray, hit: int, slots: int, stride: int) -> None
         first += 4
 
 
-@kernel
-def slope_tiles(stage: Stage, drawing: Drawing, bins: Bins, slopes: Slopes, scratch: np.ndarray) -> None:
+@inlined
+def slope_tiles(stage: Stage, drawing: Drawing, bins: Bins, slopes: Slopes, scratch: np.ndarray) -> int:
     """Write the gradient rows of all entries that forward saw of the tiles of a stage.
 
     scratch: `slope_floats(slots)` float32, of any content.
@@ -231,4 +231,4 @@ def slope_tiles(stage: Stage, drawing: Drawing, bins: Bins, slopes: Slopes, scra
             for k in range(0, slopes.row, LANES):
                 store8(slopes.rows, slot * slopes.row + k, sum_rows(scratch, SUMS + k * LANES))
         tile = claim(stage)
-    meet(stage)
+    return meet(stage)

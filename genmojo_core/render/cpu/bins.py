@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 
 from genmojo_core.errors import GenmojoError
-from genmojo_core.kernels.buffers import take
-from genmojo_core.kernels.cache import inlined, kernel
+from genmojo_core.kernels.buffers import take_together
+from genmojo_core.kernels.cache import inlined
 from genmojo_core.kernels.scalars import larger, smaller
 from genmojo_core.kernels.simd import prefetch
 from genmojo_core.kernels.stage import Stage, begin, claim, meet
@@ -87,15 +87,15 @@ def empty_bins(lens: Lens, ellipses: Ellipses) -> tuple[Bins, Sorting]:
             "remove or shrink splats that fill the view, or render a smaller image",
         )
     tiles_x, tiles_y = -(-lens.width // TILE), -(-lens.height // TILE)
-    bins = Bins(
-        take((drawn,), np.int64), take(ellipses.depth.shape, np.int32),
-        take((drawn, 4), np.int32), take((drawn + 1,), np.int64),
-        np.zeros(tiles_x * tiles_y + 1, np.int64), take((entries,), np.int32), take((entries,), np.int32),
-        take((entries,), np.int32), tiles_x, tiles_y,
+    order, other, first_slot, rank_of, box, rank, slot, entry, _ = take_together(
+        ((drawn,), np.int64), ((drawn,), np.int64), ((drawn + 1,), np.int64), (ellipses.depth.shape, np.int32),
+        ((drawn, 4), np.int32), ((entries,), np.int32), ((entries,), np.int32), ((entries,), np.int32),
     )  # fmt: skip
+    start = np.zeros(tiles_x * tiles_y + 1, np.int64)
     starts = np.zeros((DIGITS, (1 << RADIX_BITS) + 1), np.int64)
     following = np.empty(tiles_x * tiles_y, np.int64)
-    return bins, Sorting(ellipses.depth.view(np.uint32), take((drawn,), np.int64), starts, following)
+    bins = Bins(order, rank_of, box, first_slot, start, rank, slot, entry, tiles_x, tiles_y)
+    return bins, Sorting(ellipses.depth.view(np.uint32), other, starts, following)
 
 
 @inlined
@@ -168,8 +168,8 @@ def count_entries(box: np.ndarray, bins: Bins, following: np.ndarray) -> None:
         start[tile + 1] += start[tile]
 
 
-@kernel
-def sort_and_count(stage: Stage, box: np.ndarray, bins: Bins, sorting: Sorting) -> None:
+@inlined
+def sort_and_count(stage: Stage, box: np.ndarray, bins: Bins, sorting: Sorting) -> int:
     """The first stage of binning, its pieces SORT and COUNT."""
     begin(stage)
     piece = claim(stage)
@@ -180,7 +180,7 @@ def sort_and_count(stage: Stage, box: np.ndarray, bins: Bins, sorting: Sorting) 
         if piece == COUNT:
             count_entries(box, bins, sorting.following)
         piece = claim(stage)
-    meet(stage)
+    return meet(stage)
 
 
 @inlined
@@ -215,10 +215,10 @@ def gather(start: int, stop: int, bins: Bins, ellipses: Ellipses, records: Recor
             records.table[rank, GEOMETRY + k] = features[i, columns[k]] if columns[k] >= 0 else np.float32(0)
 
 
-@kernel
+@inlined
 def scatter_and_gather(
     stage: Stage, pieces: Pieces, bins: Bins, following: np.ndarray, ellipses: Ellipses, records: Records
-) -> None:
+) -> int:
     """The second stage of binning, a piece at a time. following: `Sorting.following`."""
     begin(stage)
     piece = claim(stage)
@@ -229,4 +229,4 @@ def scatter_and_gather(
             start = (piece - pieces.bands) * pieces.ranks
             gather(start, smaller(start + pieces.ranks, bins.order.size), bins, ellipses, records)
         piece = claim(stage)
-    meet(stage)
+    return meet(stage)

@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from genmojo_core.kernels.cache import inlined, kernel
+from genmojo_core.kernels.cache import inlined
 from genmojo_core.kernels.lane_bits import any_lane, bits, lanes_with_bit, store_bits, trailing_zeros
 from genmojo_core.kernels.scalars import smaller
 from genmojo_core.kernels.simd import (
@@ -291,8 +291,8 @@ def write_tile(drawing: Drawing, scratch: np.ndarray, left: int, top: int, pitch
             store4x2(drawing.planes, place, place + pitch, value)
 
 
-@kernel
-def draw_tiles(stage: Stage, drawing: Drawing, bins: Bins, scratch: np.ndarray, marks: np.ndarray) -> None:
+@inlined
+def draw_tiles(stage: Stage, drawing: Drawing, bins: Bins, scratch: np.ndarray, marks: np.ndarray) -> int:
     """Blend the tiles of a stage into the planes and record what each block has seen.
 
     scratch: `drawing_floats(slots)` float32, marks: MARKS int64, of any content.
@@ -320,4 +320,4 @@ def draw_tiles(stage: Stage, drawing: Drawing, bins: Bins, scratch: np.ndarray, 
             drawing.hits[entry] = 0
         write_tile(drawing, scratch, left, top, pitch, pitch * bins.tiles_y * TILE)
         tile = claim(stage)
-    meet(stage)
+    return meet(stage)

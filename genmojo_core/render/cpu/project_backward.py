@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from genmojo_core.kernels.cache import inlined, kernel
+from genmojo_core.kernels.cache import inlined
 from genmojo_core.kernels.scalars import larger, smaller
 from genmojo_core.kernels.simd import fma, load8, prefetch, select8, splat8, store8, store_rows
 from genmojo_core.kernels.stage import Stage, begin, claim, end_of, meet
@@ -250,8 +250,8 @@ def hand_out(scratch: np.ndarray, lane: int, i: int, inverse: float, out: Gradie
         out.pose[job, k] += scratch[(POSE + k) * LANES + lane]
 
 
-@kernel
-def gather_gradients(stage: Stage, bins: Bins, scene: tuple, sums: Sums, out: Gradients, scratch: np.ndarray) -> None:
+@inlined
+def gather_gradients(stage: Stage, bins: Bins, scene: tuple, sums: Sums, out: Gradients, scratch: np.ndarray) -> int:
     """Add the gradients of the splats of a stage, a job per piece; scene = (lens, cloud).
 
     scratch: SCRATCH float32, of any content.
@@ -288,4 +288,4 @@ def gather_gradients(stage: Stage, bins: Bins, scene: tuple, sums: Sums, out: Gr
                     hand_out(scratch, lane, at, scratch[INVERSES + lane], out, first // stage.chunk)
                 filled = 0
         first = claim(stage)
-    meet(stage)
+    return meet(stage)

@@ -6,17 +6,17 @@ same bins; their contributions to the geometry's gradient add up.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from genmojo_core.clip.cameras import View
 from genmojo_core.errors import GenmojoError
-from genmojo_core.kernels.buffers import LINE, take
+from genmojo_core.kernels.buffers import take, take_together
 from genmojo_core.kernels.team import Team
 from genmojo_core.kernels.threads import scratch
-from genmojo_core.render.cpu.backward import Slopes, slope_floats, slope_tiles
+from genmojo_core.render.cpu.backward import Slopes, slope_floats
 from genmojo_core.render.cpu.bins import (
     HALVES,
     Bins,
@@ -24,25 +24,22 @@ from genmojo_core.render.cpu.bins import (
     Records,
     Sorting,
     empty_bins,
-    scatter_and_gather,
-    sort_and_count,
 )
 from genmojo_core.render.cpu.forward import (
     LANES,
     MARKS,
     Drawing,
-    draw_tiles,
     drawing_floats,
     state_floats,
 )
+from genmojo_core.render.cpu.passes import bin_and_draw, find_gradients
 from genmojo_core.render.cpu.project import GEOMETRY, TILE, Cloud, Ellipses, Lens, lens_of, project_splats
-from genmojo_core.render.cpu.project_backward import MOMENTS, SCRATCH, Gradients, Sums, gather_gradients
-from genmojo_core.render.cpu.upstream import Planes, Upstream, spread_upstream, upstream_of
+from genmojo_core.render.cpu.project_backward import MOMENTS, SCRATCH, Gradients, Sums
+from genmojo_core.render.cpu.upstream import Planes, Upstream, upstream_of
 from genmojo_core.render.rasterizer import Rendering, Splats
 
 MAX_SLOTS = 16  # channels of one pass, depth included
 SPLATS_PER_JOB, RANKS_PER_JOB = 512, 1024
-LINE_FLOATS = LINE // 4
 
 
 @dataclass(frozen=True)
@@ -82,11 +79,12 @@ class Layout:
         first = self.attached_slots - len(self.attached)
         return slice(first, first + len(self.attached) + len(self.detached))
 
-    def feature_of_slot(self) -> np.ndarray:
-        """(slots,) int64 column of the features in each slot, -1 for depth and empty slots."""
-        found = np.full(self.slots, -1, np.int64)
+    @cached_property
+    def feature_of_plane(self) -> np.ndarray:
+        """(1 + slots,) int64 column of the features in alpha and each slot, -1 for alpha, depth and empty slots."""
+        found = np.full(1 + self.slots, -1, np.int64)
         for columns, places in self.columns():
-            found[places] = np.arange(columns.start, columns.stop)
+            found[1 + places.start : 1 + places.stop] = np.arange(columns.start, columns.stop)
         return found
 
 
@@ -142,13 +140,12 @@ def draw(
     """
     cloud, features = _checked(splats)
     lens, count = lens_of(view, pose), len(features)
-    ellipses = Ellipses(
-        take((count, GEOMETRY)), take((count,)), take((count, 4), np.int32), np.zeros(2, np.int64)
-    )  # fmt: skip
+    kinds = ((count, GEOMETRY), np.float32), ((count,), np.float32), ((count, 4), np.int32)
+    geometry, depth, box, _ = take_together(*kinds)
+    ellipses = Ellipses(geometry, depth, box, np.zeros(2, np.int64))
     with Team() as team:
         team.run(lambda stage: project_splats(stage, lens, cloud, ellipses), count, SPLATS_PER_JOB)
         bins, sorting = empty_bins(lens, ellipses)
-        team.run(lambda stage: sort_and_count(stage, ellipses.box, bins, sorting), HALVES)
         drawn = Drawn(lens, cloud, bins, features.shape[1])
         for layout in layouts(features.shape[1], detached_channels):
             drawn.passes.append(_draw_pass(team, drawn, layout, (ellipses, features), sorting))
@@ -168,45 +165,47 @@ def backward(
             first = index == 0
             _add_gradients(team, drawn, one, upstream_of(upstream, first=first), out, numbers[: None if first else 0])
     pose = np.zeros((4, 4))
-    pose[:3] = out.pose.sum(axis=0).reshape(3, 4)
+    if with_pose:
+        pose[:3] = out.pose.sum(axis=0).reshape(3, 4)
     return Splats(out.means, out.quats, out.scales, out.opacities, out.features), pose
 
 
-def layouts(features: int, detached: int) -> list[Layout]:
+@lru_cache(maxsize=64)
+def layouts(features: int, detached: int) -> tuple[Layout, ...]:
     """Passes for that many feature channels of which the last `detached` are detached."""
     if not 0 <= detached <= features:
         raise GenmojoError("argument", f"detached_channels is {detached} of {features} channels", "rasteriser")
     attached = features - detached
     if Layout(range(attached), range(attached, features)).slots <= MAX_SLOTS:
-        return [Layout(range(attached), range(attached, features))]
+        return (Layout(range(attached), range(attached, features)),)
     step = MAX_SLOTS - 1
     found = [Layout(range(i, min(i + step, attached)), range(0)) for i in range(0, attached, step)]
     found = found or [Layout(range(0), range(0))]
     step = MAX_SLOTS - 2
     found += [Layout(range(0), range(i, min(i + step, features))) for i in range(attached, features, step)]
-    return found
+    return tuple(found)
 
 
 def _draw_pass(
     team: Team, drawn: Drawn, layout: Layout, source: tuple[Ellipses, np.ndarray], sorting: Sorting
 ) -> Pass:  # fmt: skip
-    """Blend the features of one pass, the first of which also hands out the entries of the tiles."""
+    """Blend the features of one pass, the first of which also fills the bins."""
     bins, lens, (ellipses, features) = drawn.bins, drawn.lens, source
     count, slots = len(bins.order), layout.slots
-    flat = take((count * (GEOMETRY + slots) + LANES,))  # the tile kernels copy eight at a time, over the end
+    numbers = count * (GEOMETRY + slots) + LANES  # the tile kernels copy eight at a time, over the end
+    flat, hits, _ = take_together(((numbers,), np.float32), ((len(bins.rank),), np.uint32))
     planes = take((1 + slots, bins.tiles_y * TILE, bins.tiles_x * TILE))
-    hits = take((len(bins.rank),), np.uint32)
     table = flat[:-LANES].reshape(count, GEOMETRY + slots)
-    records = Records(features, layout.feature_of_slot(), table)
+    records = Records(features, layout.feature_of_plane[1:], table)
     bands = 0 if drawn.passes else min(team.threads, bins.tiles_y)  # for each of them all splats are walked
     sizes = Pieces(bands, -(-bins.tiles_y // max(bands, 1)), RANKS_PER_JOB)
-    pieces = bands + -(-count // RANKS_PER_JOB)
-    team.run(lambda stage: scatter_and_gather(stage, sizes, bins, sorting.following, ellipses, records), pieces)
     drawing = Drawing(
         flat, slots, state_floats(slots), layout.attached_slots, planes.ravel(), hits, lens.width, lens.height
     )  # fmt: skip
-    floats, tiles = drawing_floats(slots), bins.tiles_x * bins.tiles_y
-    team.run(lambda stage: draw_tiles(stage, drawing, bins, *_room(floats)), tiles)
+    binning, splats, floats = (bins, sorting, sizes), (ellipses, records), drawing_floats(slots)
+    first, pieces = 0 if drawn.passes else HALVES, bands + -(-count // RANKS_PER_JOB)
+    ranges = [(first, 1), (pieces, 1), (len(bins.tile_start) - 1, 1)]
+    team.run_all(lambda stages, done: bin_and_draw(stages, done, binning, splats, drawing, _room(floats)), ranges)
     return Pass(layout, drawing, planes)
 
 
@@ -214,14 +213,9 @@ def _empty_gradients(drawn: Drawn, *, with_pose: bool) -> tuple[Gradients, np.nd
     """Gradients of any content, and all numbers of the splats' side by side."""
     count = len(drawn.cloud.means)
     shapes = ((count, 3), (count, 4), (count, 3), (count,), (count, drawn.features))
-    sizes = [-(-math.prod(shape) // LINE_FLOATS) * LINE_FLOATS for shape in shapes]
-    numbers, arrays, start = take((sum(sizes),)), [], 0
-    for shape, size in zip(shapes, sizes, strict=True):
-        arrays.append(numbers[start : start + math.prod(shape)].reshape(shape))
-        start += size
-    means, quats, scales, opacities, features = arrays
+    means, quats, scales, opacities, features, block = take_together(*((shape, np.float32) for shape in shapes))
     jobs = -(-count // SPLATS_PER_JOB) if with_pose else 0
-    return Gradients(means, quats, scales, opacities, features, np.zeros((jobs, 12))), numbers
+    return Gradients(means, quats, scales, opacities, features, np.zeros((jobs, 12))), block.view(np.float32)
 
 
 def _add_gradients(
@@ -229,17 +223,18 @@ def _add_gradients(
 ) -> None:  # fmt: skip
     """Add the gradients of one pass to `out`, whose numbers `clear` are of any content before."""
     bins, layout, drawing = drawn.bins, one.layout, one.drawing
-    features = np.concatenate([[-1], layout.feature_of_slot()])
     height, pitch = one.planes.shape[1:]
-    planes = Planes(take((one.planes.size,)), features, height, pitch, drawing.height, drawing.width)
-    team.run(lambda stage: spread_upstream(stage, upstream, planes, clear), bins.tiles_y)
     row = -(-(MOMENTS + layout.slots) // 8) * 8
-    slopes, floats = Slopes(planes.values, take((len(bins.rank) * row,)), row), slope_floats(layout.slots)
-    tiles = bins.tiles_x * bins.tiles_y
-    team.run(lambda stage: slope_tiles(stage, drawing, bins, slopes, scratch(floats)), tiles)
-    sums, scene = Sums(slopes.rows, row, drawing.hits, features[1:]), (drawn.lens, drawn.cloud)
-    count = len(drawn.cloud.means)
-    team.run(lambda stage: gather_gradients(stage, bins, scene, sums, out, scratch(SCRATCH)), count, SPLATS_PER_JOB)
+    values, rows, _ = take_together(((one.planes.size,), np.float32), ((len(bins.rank) * row,), np.float32))
+    planes = Planes(values, layout.feature_of_plane, height, pitch, drawing.height, drawing.width)
+    slopes, floats = Slopes(values, rows, row), slope_floats(layout.slots)
+    sums, scene = Sums(rows, row, drawing.hits, layout.feature_of_plane[1:]), (drawn.lens, drawn.cloud)
+    given, tiles, splats = (upstream, planes, clear), (drawing, bins, slopes), (scene, sums, out)
+    ranges = [(bins.tiles_y, 1), (len(bins.tile_start) - 1, 1), (len(drawn.cloud.means), SPLATS_PER_JOB)]
+    team.run_all(
+        lambda stages, done: find_gradients(stages, done, given, tiles, splats, (scratch(floats), scratch(SCRATCH))),
+        ranges,
+    )
 
 
 def _room(floats: int) -> tuple[np.ndarray, np.ndarray]:

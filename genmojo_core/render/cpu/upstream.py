@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from genmojo_core.kernels.cache import inlined, kernel
+from genmojo_core.kernels.cache import inlined
 from genmojo_core.kernels.lane_bits import gather8
 from genmojo_core.kernels.scalars import smaller
 from genmojo_core.kernels.simd import load8, splat8, store8
@@ -100,8 +100,8 @@ def spread_line(y: int, upstream: Upstream, planes: Planes) -> None:
         clear(planes.values, place + filled, place + planes.pitch)
 
 
-@kernel
-def spread_upstream(stage: Stage, upstream: Upstream, planes: Planes, gradients: np.ndarray) -> None:
+@inlined
+def spread_upstream(stage: Stage, upstream: Upstream, planes: Planes, gradients: np.ndarray) -> int:
     """Fill the planes, a row of tiles per piece, and clear the gradients that are added to later, a share per piece."""
     begin(stage)
     share = -(-gradients.size // (LANES * stage.size)) * LANES
@@ -111,4 +111,4 @@ def spread_upstream(stage: Stage, upstream: Upstream, planes: Planes, gradients:
             spread_line(y, upstream, planes)
         clear(gradients, piece * share, smaller((piece + 1) * share, gradients.size))
         piece = claim(stage)
-    meet(stage)
+    return meet(stage)
