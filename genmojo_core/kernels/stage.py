@@ -9,12 +9,12 @@ A kernel that works in a stage reads
         first = claim(stage)
     return meet(stage)
 
-and touches nothing shared outside the loop. Who takes which piece must not show in the result. A kernel goes through
-several stages like that, as long as `meet` tells it to go on: who comes back to Python and calls the next kernel takes
-a tenth of a small picture's time for it. The thread that leads
-leaves a stage when all its pieces are done; a helper stays until the next one begins. So a helper wants the
-interpreter's lock only while the leader does not hold it, and neither ever waits for the other to be woken by the
-system, which takes longer than a stage of a small picture. Waiting ends after `PATIENCE` rounds whatever happens.
+and touches nothing shared outside the loop. Who takes which piece must not show in the result. A kernel may go through
+several stages like that, as long as `meet` tells it to go on: all threads lose what Python takes between two kernels.
+
+The thread that leads leaves a stage when all its pieces are done; a helper stays until the next one begins. So a helper
+wants the interpreter's lock only while the leader does not hold it, and neither ever waits for the other to be woken by
+the system, which takes longer than a stage of a small picture. Waiting ends after `PATIENCE` rounds whatever happens.
 """
 
 from __future__ import annotations

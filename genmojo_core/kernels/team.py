@@ -21,8 +21,9 @@ class Team:
         with Team() as team:
             team.run(lambda stage: some_kernel(stage, ...), size, chunk)
 
-    Helpers are woken once and stay at hand between the stages for a fraction of a millisecond each; by the end of the
-    block they are on their way back to sleep. A thread that has no helpers wakes and waits for nobody.
+    Helpers are woken at once, so that they are there when the first stage begins, and stay at hand between the stages
+    for a fraction of a millisecond each; by the end of the block they are on their way back to sleep. A thread that has
+    no helpers wakes and waits for nobody.
     """
 
     def __init__(self) -> None:
@@ -33,6 +34,7 @@ class Team:
         self._asked: list[Future[None]] = []
 
     def __enter__(self) -> Team:
+        self._ask()
         return self
 
     def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
@@ -85,8 +87,8 @@ class Team:
         while self._posted is not None and self._posted[1][-1].number > last and self._newest[0] != ENDED:
             kernel, stages = self._posted
             done, last = kernel(stages, 0), stages[-1].number
-            while done < len(stages) and self._newest[0] != ENDED:
-                if self._newest[0] > stages[done - 1].number:
+            while done < len(stages) and (newest := int(self._newest[0])) != ENDED:
+                if newest > stages[done - 1].number:
                     done = kernel(stages, done)
                 else:
                     time.sleep(NAP)  # the leader takes long over a piece

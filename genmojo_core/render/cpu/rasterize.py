@@ -138,12 +138,12 @@ def draw(
         view: the camera; `pose` (4, 4) takes the place of its world_to_camera.
         detached_channels: that many last feature channels give gradient to the features only.
     """
-    cloud, features = _checked(splats)
-    lens, count = lens_of(view, pose), len(features)
-    kinds = ((count, GEOMETRY), np.float32), ((count,), np.float32), ((count, 4), np.int32)
-    geometry, depth, box, _ = take_together(*kinds)
-    ellipses = Ellipses(geometry, depth, box, np.zeros(2, np.int64))
     with Team() as team:
+        cloud, features = _checked(splats)
+        lens, count = lens_of(view, pose), len(features)
+        kinds = ((count, GEOMETRY), np.float32), ((count,), np.float32), ((count, 4), np.int32)
+        geometry, depth, box, _ = take_together(*kinds)
+        ellipses = Ellipses(geometry, depth, box, np.zeros(2, np.int64))
         team.run(lambda stage: project_splats(stage, lens, cloud, ellipses), count, SPLATS_PER_JOB)
         bins, sorting = empty_bins(lens, ellipses)
         drawn = Drawn(lens, cloud, bins, features.shape[1])
@@ -159,8 +159,8 @@ def backward(
 
     The pose's gradient is 0 unless `with_pose`.
     """
-    out, numbers = _empty_gradients(drawn, with_pose=with_pose)
     with Team() as team:
+        out, numbers = _empty_gradients(drawn, with_pose=with_pose)
         for index, one in enumerate(drawn.passes):
             first = index == 0
             _add_gradients(team, drawn, one, upstream_of(upstream, first=first), out, numbers[: None if first else 0])
