@@ -16,7 +16,7 @@ from genmojo_core.optimise import calibrate
 from tests.benchmarks.forecast import decibel_law, non_negative
 from tests.optimise.small_runs import small_clip
 
-MODEL = Model((10.0, 1.0, 2.0, 40.0, 0.0), (0.0, 1.0, 0.0, 0.0), (20.0, 0.0, 1.0, 0.0, 0.0), 0.5, 0.1)
+MODEL = Model((10.0, 1.0, 2.0, 40.0, 0.0, 3.0), (0.0, 1.0, 0.0, 0.0), (20.0, 0.0, 1.0, 0.0, 0.0), 0.5, 0.1)
 CLIP = Difficulty(30.0, 30.0, 20.0, 0.1, 2.0)
 ON = ["background", "instance_labels", "flow", "non_rigid_motion"]
 
@@ -53,6 +53,12 @@ def test_what_is_off_costs_nothing():
     full = step_features(made(config))
     bare = step_features(work_of((200, 100), 24, 2, [], config))
     assert (bare <= full).all() and bare[2] == 0 and bare[3] == 0
+
+
+def test_a_step_that_looks_at_almost_nothing_still_takes_its_time():
+    config = preset("draft", lift_steps=0, joint_steps=100, budget_seconds=1e6)
+    told = foretold(work_of((200, 100), 24, 1, ["background"], config, 1e-6), CLIP, config, 1.0, MODEL)
+    assert told.seconds >= 24.0 + 100 * MODEL.step[-1] / 1000
 
 
 def test_a_background_that_stands_still_is_fitted_once_and_steps_look_at_a_window():
