@@ -25,7 +25,7 @@ def report(name: str) -> Rows:
         folder = bench.work / "reports" / name
         frames = ("--frames", CLIPS[name]) if CLIPS[name] else ()
         command = ("-m", "genmojo_core.cli.main", "tradeoff", str(bench.data / name), "-o", str(folder), *frames)
-        told = json.loads(bench.python(*command, *REPORT, "--budget", "1200s", "--moments", "30s,60s"))
+        told = json.loads(bench.python(*command, *REPORT, "--budget", "1200s", "--moments", "30s,60s,120s"))
         page = (folder / "tradeoff.html").read_text()
         alone = not re.search(r"https?://|src=|<script|@import|url\(", page)
         checks = [Check("trials", told["trials"], 20), Check("page stands alone", float(alone), 1),
