@@ -1,9 +1,10 @@
 """Drives the real window through a whole job; started by test_watch.py in a process of its own.
 
-python tests/system/watching.py FOLDER [job | stalls SECONDS]
+python tests/system/watching.py FOLDER [job [CLIP] | stalls SECONDS]
 
-`job`: demo clip, run, views, exports, with screenshots and exports in FOLDER. `stalls`: a run that is watched and
-played with for so long: views, frames, panels out and back, workspaces, themes. The last line printed is JSON.
+`job`: a clip (the demo's if none is named), run, views, exports; screenshots and exports in FOLDER. `stalls`: a run
+that is watched and played with for so long: views, frames, panels out and back, workspaces, themes. The last line
+printed is JSON.
 """
 
 import json
@@ -74,17 +75,20 @@ class Drive:
 def main():
     drive = Drive(sys.argv[1])
     what, *more = sys.argv[2:] or ["job"]
-    figures = _job(drive) if what == "job" else _play(drive, float(more[0]))
+    figures = _job(drive, *more) if what == "job" else _play(drive, float(more[0]))
     drive.window.close()
     (drive.folder / f"{what}.json").write_text(json.dumps(figures))
     print(json.dumps(figures))
 
 
-def _job(drive):
+def _job(drive, clip=None):
     window = drive.window
     drive.shot("start")
-    QTest.mouseClick(window.welcome.demo_button, Qt.MouseButton.LeftButton)
-    drive.wait(lambda: window.state.clip is not None, 60, "the demo clip")
+    if clip is None:
+        QTest.mouseClick(window.welcome.demo_button, Qt.MouseButton.LeftButton)
+    else:
+        window.open_path(Path(clip))
+    drive.wait(lambda: window.state.clip is not None, 60, "the clip")
     watch = window.workspaces["watch"]
     drive.wait(lambda: watch.setup.effects.rows, 120, "the effects")
     drive.shot("clip")
