@@ -7,6 +7,7 @@ from functools import lru_cache
 
 from PySide6.QtGui import QGuiApplication, QOffscreenSurface, QOpenGLContext, QSurfaceFormat
 
+from genmojo_studio.translate import tr
 from genmojo_studio.view3d.gl_pieces import is_software
 
 _GL_RENDERER = 0x1F01
@@ -42,3 +43,12 @@ def probe() -> GlKind:
     finally:
         context.doneCurrent()
     return GlKind.SOFTWARE if is_software(name) else GlKind.DEVICE
+
+
+def told(kind: GlKind) -> str:
+    """What a person is told about who draws; "" for a graphics card."""
+    if kind == GlKind.MISSING:
+        return tr("No OpenGL here: the processor draws. Everything works, large scenes turn slower.")
+    if kind == GlKind.SOFTWARE:
+        return tr("OpenGL is emulated here: the processor draws directly, which is faster.")
+    return ""

@@ -22,7 +22,7 @@ from genmojo_studio.translate import tr
 from genmojo_studio.view3d import navigation
 from genmojo_studio.view3d.cpu_view import CpuView
 from genmojo_studio.view3d.frames import FrameReport, FrameRequest
-from genmojo_studio.view3d.gl_probe import GlKind, probe
+from genmojo_studio.view3d.gl_probe import GlKind, probe, told
 from genmojo_studio.view3d.look import BLACK, Look, Mode
 from genmojo_studio.view3d.orbit import PRESETS, Orbit, Reference, between, reference_of
 from genmojo_studio.view3d.overlay import Overlay, Paint
@@ -71,9 +71,11 @@ class SceneView(QWidget):
         self._turn = QVariantAnimation(self, duration=TURN_MS, startValue=0.0, endValue=1.0)
         self._turn.setEasingCurve(QEasingCurve.Type.Linear)  # `between` eases
         self._turn.valueChanged.connect(self._turned)
+        self._turn.finished.connect(self._settle)
         self._way: tuple[Orbit, Orbit] = (Orbit(), Orbit())
         self._pace = 0.0
         self._drawn_at = 0.0
+        self._changed_at = -math.inf
         self._later = QTimer(self, singleShot=True, timerType=Qt.TimerType.PreciseTimer)
         self._later.timeout.connect(self._redraw)
         self.surface: SplatView | CpuView
@@ -123,7 +125,7 @@ class SceneView(QWidget):
             self._look = look
             self.surface.backdrop = look.backdrop or BLACK
             self.surface.update()  # also without a scene
-            self._move()
+            self._change()
 
     def set_input(self, frame: Callable[[int], np.ndarray | None] | None) -> None:
         """Where Mode.RESIDUAL gets the clip's frame t (H, W, 3) uint8 from."""
@@ -163,16 +165,14 @@ class SceneView(QWidget):
             self._turn.start()
         elif orbit != self._orbit:
             self._orbit = orbit
-            self._move()
+            self._change()
             self.view_changed.emit(orbit)
 
     def preset(self, name: str) -> None:
         """Turn to a preset of `orbit.PRESETS`, keeping distance and lens; "input" resets those too."""
-        if name == "input":
-            self.set_orbit(Orbit(), animate=True)
-            return
         angles = PRESETS[name]
-        self.set_orbit(replace(self._orbit, elevation=angles.elevation, azimuth=angles.azimuth, roll=0.0), animate=True)
+        turned = replace(self._orbit, elevation=angles.elevation, azimuth=angles.azimuth, roll=0.0)
+        self.set_orbit(Orbit() if name == "input" else turned, animate=True)
 
     def hold_camera(self, t: float | None) -> None:
         """Look relative to the input camera of a fixed time; None: of the time on show (the view follows it)."""
@@ -181,9 +181,7 @@ class SceneView(QWidget):
 
     def reference(self) -> Reference:
         """What the orbit is relative to: input camera, target, up. Raises GenmojoError("empty") without a scene."""
-        if self._snapshot is None:
-            raise GenmojoError("empty", "there is no scene", "3D view", "open a scene or start a run")
-        return reference_of(self._snapshot, self.time if self._held is None else self._held)
+        return reference_of(self._scene(), self.time if self._held is None else self._held)
 
     def view(self) -> View:
         """The camera now, in logical pixels of this widget."""
@@ -255,6 +253,8 @@ class SceneView(QWidget):
         self._press = None
         if start == last and event.button() == Qt.MouseButton.LeftButton and self._snapshot is not None:
             self.picked.emit(self.pick(start.x(), start.y()))
+        elif start != last:
+            self._settle()
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         """Back to the input view."""
@@ -289,14 +289,10 @@ class SceneView(QWidget):
     def _choose(self, engine: str) -> None:
         """Make the surface."""
         kind = {"gl": GlKind.DEVICE, "cpu": GlKind.SOFTWARE}.get(engine) or probe()
-        if kind == GlKind.DEVICE:
-            self._use(SplatView(self))
-        else:
-            self._use(CpuView(self))
-            if engine == "auto" and kind == GlKind.MISSING:
-                self.overlay.message = _no_gl()
-            elif engine == "auto":
-                self.overlay.message = tr("OpenGL is emulated here: the processor draws directly, which is faster.")
+        self._use(SplatView(self) if kind == GlKind.DEVICE else CpuView(self))
+        if engine == "auto":
+            self.overlay.message = told(kind)
+            if kind == GlKind.SOFTWARE:
                 QTimer.singleShot(SOFT_BANNER_MS, self, lambda: self.set_message(""))
 
     def _use(self, surface: SplatView | CpuView) -> None:
@@ -319,7 +315,7 @@ class SceneView(QWidget):
             self._use(CpuView(self))
             old.drop_gl()
             old.deleteLater()
-            self.set_message(f"{_no_gl()} ({reason})")
+            self.set_message(f"{told(GlKind.MISSING)} ({reason})")
             self._redraw()
         else:
             self.set_message(tr("The view cannot be drawn: {reason}").format(reason=reason))
@@ -362,6 +358,22 @@ class SceneView(QWidget):
         self._rest.start()
         self._redraw()
 
+    def _change(self) -> None:
+        """One change alone is drawn in full at once; changes that follow each other, as from a slider, are a movement.
+
+        Else a click that shows one object would first show it from a few swollen splats.
+        """
+        now = time.monotonic()
+        follows = self._rest.isActive() or now - self._changed_at < 1e-3 * REST_MS
+        self._changed_at = now
+        self._move() if follows else self._redraw()
+
+    def _settle(self) -> None:
+        """A movement has ended: full detail need not wait."""
+        if self._rest.isActive():
+            self._rest.stop()
+            self._redraw()
+
     def _redraw(self) -> None:
         """Ask the surface for a frame, if there is a scene and somebody can see it; not sooner than the pace allows."""
         if self._snapshot is not None and self.isVisible():
@@ -377,16 +389,12 @@ class SceneView(QWidget):
 
     def _request(self, *, moving: bool) -> FrameRequest:
         """Everything about the frame now."""
-        reference = self.reference()
-        snapshot = self._snapshot
-        if snapshot is None:
-            raise GenmojoError("empty", "there is no scene", "3D view", "open a scene or start a run")
-        if self._look.canonical:
-            snapshot = snapshot.canonical
+        snapshot = self._scene().canonical if self._look.canonical else self._scene()
         picture = self._input(int(self.time)) if self._input and self._look.mode == Mode.RESIDUAL else None
-        return FrameRequest(snapshot, reference, self._orbit, self._look, self.time, moving, picture)
+        return FrameRequest(snapshot, self.reference(), self._orbit, self._look, self.time, moving, picture)
 
-
-def _no_gl() -> str:
-    """Why the processor draws."""
-    return tr("No OpenGL here: the processor draws. Everything works, large scenes turn slower.")
+    def _scene(self) -> SceneSnapshot:
+        """The scene on show, or GenmojoError("empty")."""
+        if self._snapshot is None:
+            raise GenmojoError("empty", "there is no scene", "3D view", "open a scene or start a run")
+        return self._snapshot

@@ -1,10 +1,10 @@
 """Drives the real window through a whole job; started by test_watch.py in a process of its own.
 
-python tests/system/watching.py FOLDER [job [CLIP] | stalls SECONDS]
+python tests/system/watching.py FOLDER [job [CLIP] | stalls SECONDS [CLIP]]
 
 `job`: a clip (the demo's if none is named), run, views, exports; screenshots and exports in FOLDER. `stalls`: a run
 that is watched and played with for so long: views, frames, panels out and back, workspaces, themes. The last line
-printed is JSON.
+printed is JSON; `at_rest_db` is the least likeness of a picture at rest to the same scene drawn at full detail.
 """
 
 import json
@@ -12,13 +12,16 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 from PySide6.QtCore import Qt, QTimer
+from PySide6.QtGui import QImage
 from PySide6.QtTest import QTest
 
 from genmojo_core.store import scene_hdf5
 from genmojo_studio import app, notify
 from genmojo_studio.export.request import ExportRequest
 from genmojo_studio.settings import Settings
+from genmojo_studio.view3d.quality import FULL
 
 BUDGET = 400.0  # seconds of optimisation at most; the drive stops it long before
 
@@ -29,7 +32,7 @@ class Drive:
     def __init__(self, folder):
         self.folder = Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
-        self.told, self.shots = [], 0
+        self.told, self.shots, self.at_rest_db = [], 0, 99.0
         notify.show_dialog = lambda _parent, title, text, details: self.told.append((title, text, details))
         self.application = app.make_application()
         self.window = app.make_window(self.application, Settings())
@@ -48,11 +51,27 @@ class Drive:
         until = time.monotonic() + seconds
         self.wait(lambda: time.monotonic() > until, seconds + 1, "rest")
 
+    def open(self, clip):
+        """Opens a clip, or makes the demo's if none is named; the workspace Watch once its effects are measured."""
+        if clip is None:
+            QTest.mouseClick(self.window.welcome.demo_button, Qt.MouseButton.LeftButton)
+        else:
+            self.window.open_path(Path(clip))
+        self.wait(lambda: self.window.state.clip is not None, 60, "the clip")
+        watch = self.window.workspaces["watch"]
+        self.wait(lambda: watch.setup.effects.rows, 120, "the effects")
+        return watch
+
     def shot(self, name):
         self.rest(0.3)
+        watch = self.window.workspaces.get("watch")
+        if watch is not None and watch.view.snapshot is not None and watch.view.isVisible():
+            self.drawn(watch)
         self.shots += 1
         dog = self.window.watchdog
         stalls, longest = list(dog.stalls), dog.longest
+        if watch is not None and watch.view.overlay.report is not None and watch.view.isVisible():
+            self.at_rest_db = min(self.at_rest_db, _likeness(watch.view))
         self.window.screen().grabWindow(0).save(str(self.folder / f"{self.shots:02d}-{name}.png"))
         self.rest(0.2)
         dog.stalls, dog.longest = stalls, longest  # taking the picture held up the window, not the app
@@ -63,7 +82,8 @@ class Drive:
         def there():
             wanted, report = watch.view.frame_request(), watch.view.overlay.report
             got = None if report is None or report.request.moving else report.request
-            return got is not None and (got.orbit, got.look, got.t) == (wanted.orbit, wanted.look, wanted.t)
+            same = got is not None and (got.orbit, got.look, got.t) == (wanted.orbit, wanted.look, wanted.t)
+            return same and report.quality == FULL
 
         self.wait(there, 30, "the picture")
 
@@ -72,29 +92,31 @@ class Drive:
             raise SystemExit(f"{action_id} is not possible here")
 
 
+def _likeness(view):
+    """dB between what the view shows and its scene drawn anew with every Gaussian at full size."""
+    report, shown = view.overlay.report, view.surface.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
+    rows = np.frombuffer(shown.constBits(), np.uint8).reshape(shown.height(), shown.bytesPerLine())
+    pixels = rows[:, : 3 * shown.width()].reshape(shown.height(), shown.width(), 3).astype(np.float64)
+    full = view.surface.image(report.request, report.request.view(shown.width(), shown.height()))[..., :3]
+    return float(10 * np.log10(255.0**2 / max(np.mean((pixels - full) ** 2), 1e-5)))
+
+
 def main():
     drive = Drive(sys.argv[1])
     what, *more = sys.argv[2:] or ["job"]
-    figures = _job(drive, *more) if what == "job" else _play(drive, float(more[0]))
+    figures = _job(drive, *more) if what == "job" else _play(drive, float(more[0]), *more[1:])
     drive.window.close()
     (drive.folder / f"{what}.json").write_text(json.dumps(figures))
     print(json.dumps(figures))
 
 
 def _job(drive, clip=None):
-    window = drive.window
     drive.shot("start")
-    if clip is None:
-        QTest.mouseClick(window.welcome.demo_button, Qt.MouseButton.LeftButton)
-    else:
-        window.open_path(Path(clip))
-    drive.wait(lambda: window.state.clip is not None, 60, "the clip")
-    watch = window.workspaces["watch"]
-    drive.wait(lambda: watch.setup.effects.rows, 120, "the effects")
+    watch = drive.open(clip)
     drive.shot("clip")
     figures = _run(drive, watch)
     figures |= _exports(drive, watch)
-    figures["torch"] = "torch" in sys.modules
+    figures |= {"torch": "torch" in sys.modules, "at_rest_db": drive.at_rest_db}
     figures |= _stalls(drive)
     return figures
 
@@ -114,13 +136,10 @@ def _stalls(drive):
     return figures
 
 
-def _play(drive, seconds):
+def _play(drive, seconds, clip=None):
     """Something else every second while the optimiser works."""
     window = drive.window
-    QTest.mouseClick(window.welcome.demo_button, Qt.MouseButton.LeftButton)
-    drive.wait(lambda: window.state.clip is not None, 60, "the demo clip")
-    watch = window.workspaces["watch"]
-    drive.wait(lambda: watch.setup.effects.rows, 120, "the effects")
+    watch = drive.open(clip)
     window.show_workspace("annotate")  # opened once: reading its clip is not part of the play
     drive.rest(5)
     window.show_workspace("watch")

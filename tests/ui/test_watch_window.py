@@ -19,6 +19,8 @@ from genmojo_core.tracks.model import VISIBLE, PointTracks
 from genmojo_studio import theme
 from genmojo_studio.view3d.look import Mode
 from genmojo_studio.view3d.orbit import Orbit
+from genmojo_studio.view3d.quality import FULL
+from genmojo_studio.view3d.scene_view import REST_MS
 from genmojo_studio.view3d.snapshot import SceneSnapshot
 from genmojo_studio.watch import track_overlay, view_map
 from genmojo_studio.watch.time_bar import TimeBar
@@ -413,3 +415,25 @@ def test_the_worst_track_and_the_one_it_is_compared_with_stand_out(watch, qtbot)
     np.testing.assert_allclose(chosen.joined, [off[1, 2], at[1, 2]], atol=1e-4)
     panel._toggle(panel.worst.topLevelItem(0))
     assert panel.selected == () and all(share == 1.0 for _, share in painted().marks) and not painted().joined
+
+
+def test_one_change_alone_never_shows_a_picture_of_less_detail(watch, qtbot):
+    """Showing one object, or undoing that, is no movement: the old picture stays until the full one is there."""
+    view, drawn = watch.view, []
+    qtbot.waitUntil(lambda: view.overlay.report is not None, timeout=60_000)
+    view.frame_drawn.connect(drawn.append)
+    watch.state.set(selected_object=1)
+    changes = (lambda: watch.table.trigger("view.solo"), watch.undo.undo, lambda: view.set_orbit(Orbit(20)))
+    for change in changes:
+        qtbot.waitUntil(lambda: not view._rest.isActive(), timeout=60_000)
+        QTest.qWait(REST_MS + 20)  # changes nearer to each other would be a movement
+        before = view.frame_request()
+        change()
+        wanted = view.frame_request()
+        assert (wanted.look, wanted.orbit) != (before.look, before.orbit)
+        qtbot.waitUntil(lambda wanted=wanted: bool(drawn) and _same(drawn[-1].request, wanted), timeout=60_000)
+    assert all(report.quality == FULL and not report.request.moving for report in drawn)
+
+
+def _same(drawn, wanted):
+    return (drawn.look, drawn.orbit) == (wanted.look, wanted.orbit)
