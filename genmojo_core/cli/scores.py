@@ -17,6 +17,8 @@ def add_commands(commands: Any) -> None:
     evaluate.add_argument("scene", metavar="scene.h5")
     evaluate.add_argument("clip", metavar="CLIP")
     evaluate.add_argument("--sheet", metavar="PATH.png", help="also write a contact sheet")
+    evaluate.add_argument("--turntable", action="store_true",
+                          help="also look at the objects from all round: flicker, holes, thickness")  # fmt: skip
     evaluate.set_defaults(run=run_evaluate)
     metrics = commands.add_parser("metrics", help="point tracks against true ones, in pixels of 256 x 256")
     metrics.add_argument("predicted", metavar="PRED.npz")
@@ -31,7 +33,14 @@ def run_evaluate(args: argparse.Namespace) -> dict[str, Any]:
 
     if args.sheet:
         check_writable(args.sheet)
-    return evaluate(scene_hdf5.read(args.scene), args.clip, args.sheet)
+    scene = scene_hdf5.read(args.scene)
+    result = evaluate(scene, args.clip, args.sheet)
+    if args.turntable:
+        from genmojo_core.measure.turntable import turntable_figures
+
+        with progress("looking from all round") as tell:
+            result |= turntable_figures(scene, progress=tell)
+    return result
 
 
 def evaluate(scene: Any, clip_path: str, sheet_path: str | None = None) -> dict[str, Any]:

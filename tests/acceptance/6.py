@@ -12,6 +12,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable
+from typing import Any
 
 from ablation_rows import ROWS as ABLATION
 from standard_runs import scores
@@ -115,10 +116,32 @@ def means(views: dict[str, dict[str, float]], names: tuple[str, ...]) -> dict[st
     return {k: sum(views[n][k] for n in names) / len(names) for k in keys}
 
 
+def first_second(bench: Bench, name: str) -> dict[str, Any]:
+    """Figures of a real clip's frames 0:24 at standard with the embedded prior."""
+    return scores(bench, name, "prior", "--frames", "0:24", "--budget", "15m")
+
+
 def crossing(bench: Bench) -> list[Check]:
     """Whole static lift and motion of crossing 0:24 with the embedded prior."""
-    got = scores(bench, "crossing", "prior", "--frames", "0:24", "--budget", "15m")
+    got = first_second(bench, "crossing")
     return [Check("wall s", got["seconds"], 900, at_most=True), Check("psnr", got["psnr"])]
+
+
+def turntable(name: str) -> Callable[[Bench], list[Check]]:
+    """A real clip from all round: no more flicker than in the clip's own view, closed, no flat cards."""
+
+    def row(bench: Bench) -> list[Check]:
+        got = first_second(bench, name)
+        views = got["turntable"]
+        own = views["0"]["flicker"]
+        return [
+            Check("flicker at 0, levels of 255", own),
+            *(Check(f"times that at {a}°", views[a]["flicker"] / own, 2.0, at_most=True) for a in views if a != "0"),
+            *(Check(f"holes at {a}°, %", views[a]["holes"], 2.0, at_most=True) for a in views),
+            *(Check(f"thickness of {one}", share, 0.3) for one, share in got["thickness"].items()),
+        ]
+
+    return row
 
 
 ROWS: Rows = {
@@ -129,6 +152,8 @@ ROWS: Rows = {
     "novel-cross": ("blender-cross, standard", novel("blender-cross")),
     "novel-trio": ("blender-trio, standard", novel("blender-trio")),
     "crossing": ("crossing 0:24, standard with prior", crossing),
+    "turntable-crossing": ("crossing 0:24 from all round", turntable("crossing")),
+    "turntable-gold-fish": ("gold-fish 0:24 from all round", turntable("gold-fish")),
     **ABLATION,
 }
 

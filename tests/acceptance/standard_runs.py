@@ -18,7 +18,7 @@ def genmojo(bench: Bench, *argv: str) -> dict[str, Any]:
 
 
 def scores(bench: Bench, name: str, kind: str, *options: str) -> dict[str, Any]:
-    """`evaluate` of a clip's scene at standard, with `seconds`, the wall seconds of the run.
+    """`evaluate --turntable` of a clip's scene at standard, with `seconds`, the wall seconds of the run.
 
     A scene of the same program (its sources and prior) is not made again. kind: names the options.
     """
@@ -30,6 +30,6 @@ def scores(bench: Bench, name: str, kind: str, *options: str) -> dict[str, Any]:
         clip, start = str(bench.data / name), time.monotonic()
         genmojo(bench, "optimize", clip, "-o", str(scene), "--preset", "standard", *options)
         seconds = time.monotonic() - start
-        kept.write_text(json.dumps({**genmojo(bench, "evaluate", str(scene), clip), "seconds": seconds}))
+        kept.write_text(json.dumps({**genmojo(bench, "evaluate", str(scene), clip, "--turntable"), "seconds": seconds}))
     result: dict[str, Any] = json.loads(kept.read_text())
     return result
