@@ -74,7 +74,7 @@ class KeyEditor(QDialog):
 
     def _arrange(self) -> None:
         top, bottom = QHBoxLayout(), QHBoxLayout()
-        for label, widget in ((tr("Keys as in"), self.preset), (tr("Language"), self.language)):
+        for label, widget in ((tr("Keys as in"), self.preset), (tr("Language (after a restart)"), self.language)):
             top.addWidget(QLabel(label))
             top.addWidget(widget)
             top.addSpacing(16)

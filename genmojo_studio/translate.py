@@ -10,6 +10,8 @@ from pathlib import Path
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
+from genmojo_core.sentences import translated
+
 CONTEXT = "studio"
 FOLDER = Path(__file__).resolve().parent.parent / "resources" / "translations"
 LANGUAGES = {"en": "English", "de": "Deutsch"}
@@ -18,6 +20,11 @@ LANGUAGES = {"en": "English", "de": "Deutsch"}
 def tr(text: str) -> str:
     """A text in the person's language; English where nobody has translated it."""
     return QCoreApplication.translate(CONTEXT, text)
+
+
+def told(words: str) -> str:
+    """What a run told in English (genmojo_core/sentences.py), in the person's language."""
+    return translated(words, tr)
 
 
 def mark(text: str) -> str:

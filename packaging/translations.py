@@ -3,9 +3,9 @@
     python packaging/translations.py            # update and compile
     python packaging/translations.py --check    # exit 1 if a text is missing, unfinished or not compiled
 
-Texts are the arguments of `tr("...")` and `mark("...")` in genmojo_studio, those of the action tables and of the effect
-plan (genmojo_core/effects/texts.py). Qt's own lupdate does not know such tables, so the source is read here;
-pyside6-lrelease compiles.
+Texts are the arguments of `tr("...")` and `mark("...")` in genmojo_studio, those of the action tables, of the effect
+plan (genmojo_core/effects/texts.py) and of what runs tell (genmojo_core/sentences.py). Qt's own lupdate does not know
+such tables, so the source is read here; pyside6-lrelease compiles.
 """
 
 from __future__ import annotations
@@ -36,8 +36,9 @@ def source_texts() -> list[str]:
             if text:
                 texts[text] = None
     from genmojo_core.effects.texts import TEXTS, UNITS
+    from genmojo_core.sentences import SENTENCES
 
-    return list(texts | dict.fromkeys([*TEXTS.values(), *UNITS]))
+    return list(texts | dict.fromkeys([*TEXTS.values(), *UNITS, *SENTENCES.values()]))
 
 
 def update(language: str, texts: list[str]) -> list[str]:

@@ -16,6 +16,7 @@ from av.error import FFmpegError, InvalidDataError
 from genmojo_core.clip import pictures
 from genmojo_core.clip.limits import LIMITS, PIXEL_ASPECT_RANGE, check_image_size, check_limit
 from genmojo_core.errors import GenmojoError
+from genmojo_core.sentences import say
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,7 @@ def read(path: Path, span: pictures.Span | None, short_side: int | None) -> pict
     positions = np.array(decoder.found, np.int64)
     seconds = (index.stamps[positions] - index.stamps[0]) * index.base
     lost = len(chosen) - len(positions)
-    notes = (f"{lost} of {len(chosen)} frames of {path.name} cannot be decoded and are left out",) if lost else ()
+    notes = (say("frames_lost", count=lost, frames=len(chosen), name=path.name),) if lost else ()
     return pictures.Pictures(frames[: len(positions)], positions, len(index.stamps), positions, seconds,
                              tuple(f"{s:.3f} s" for s in seconds), size, aspect, notes)  # fmt: skip
 

@@ -19,6 +19,7 @@ from genmojo_core.estimate.masks import Box, Prompt, Scribble
 from genmojo_core.estimate.models import DepthPrediction, Models
 from genmojo_core.estimate.objects import with_objects
 from genmojo_core.estimate.shapes import measure_shapes
+from genmojo_core.sentences import say
 
 Progress = Callable[[str, float], None]
 
@@ -103,15 +104,15 @@ def _with_model_depth(clip: Clip, prediction: DepthPrediction | None, free: np.n
     if prediction is None:
         return clip
     value, source, valid = prediction.value, f"estimated: {prediction.source}", prediction.valid
-    sentence = f"depth comes from {prediction.source}"
+    key = "depth_from"
     if prediction.kind == "disparity":
         fitted = None if own is None else fit_alignment(value, own.value, own.valid & valid)
         if fitted is None:
             value = steady(value, free)
-            sentence += "; its scale and shift are a guess, so distances are an order, not a measure"
+            key = "depth_order_from"
         value = (fitted or floor_alignment(value[valid])).depth(value)
     if own is None:
-        return _told(clip, sentence, depth=Channel(value, valid, source))
+        return _told(clip, say(key, source=prediction.source), depth=Channel(value, valid, source))
     merged = np.where(own.valid, own.value, value).astype(np.float32)
     return clip.with_channels(depth=Channel(merged, own.valid | valid, f"{own.source}; gaps from {prediction.source}"))
 
@@ -122,14 +123,9 @@ def _with_cameras(clip: Clip, free: np.ndarray) -> tuple[Clip, np.ndarray]:
         return clip, np.zeros((0, 3))
     lens = cameras.default_intrinsics(clip)
     found = cameras.estimate_cameras(clip.frames, free, lens, _believed(clip, lens))
-    motion = {
-        "still": "the camera is taken to stand still",
-        "turning": "the camera's motion is a guess: it is taken to turn on the spot",
-        "moving": "the camera's motion is a guess from background points",
-    }[found.kind]
     told = _told(
         clip,
-        f"{motion}; its field of view is taken to be {_fovy(found.cameras):.3g} degrees high",
+        say(f"camera_{found.kind}", degrees=_fovy(found.cameras)),
         cameras=Channel(found.cameras, found.valid, f"estimated: {found.kind} camera from background points"),
         world_up=np.array([0.0, -1.0, 0.0]),
     )
@@ -169,7 +165,7 @@ def _with_depth(clip: Clip, free: np.ndarray, points: np.ndarray) -> Clip:
     source = f"estimated: {depth.METHOD}"
     return _told(
         clip,
-        f"depth is a guess from {depth.METHOD}; distances between objects are an order, not a measure",
+        say("depth_guess", method=depth.METHOD),
         depth=Channel(guess, np.ones(guess.shape, bool), source),
         background_depth=clip.background_depth or Channel(plate, np.ones(plate.shape, bool), source),
     )
@@ -185,7 +181,7 @@ def _with_background(clip: Clip, free: np.ndarray) -> Clip:
     painted = 1.0 - float(seen.mean())
     if painted < 0.001:
         return clip
-    return _told(clip, f"{painted:.1%} of the background is never seen and was painted in from around it")
+    return _told(clip, say("painted", share=painted))
 
 
 def _rig(clip: Clip) -> Cameras:

@@ -14,8 +14,9 @@ from genmojo_core.clip.cameras import Cameras
 from genmojo_core.estimate.ground import PointStage, Stage, guess_ground
 from genmojo_core.estimate.shapes import Shapes, measure_shapes, rounded
 from genmojo_core.estimate.views import carry, depth_in
+from genmojo_core.sentences import say
 
-METHOD = "ground contact, occlusion order and rounded shapes"
+METHOD = say("depth_method")
 _RELIEF = 0.7  # how far a body bulges, relative to its radius in the image
 _GAP = 0.02  # log depth left between two bodies where they touch
 _MOST_CHANGE = 0.05  # of the depth per frame, METHOD.md section 3

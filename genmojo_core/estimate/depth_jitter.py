@@ -13,6 +13,7 @@ import numpy as np
 
 from genmojo_core.clip.cameras import Cameras
 from genmojo_core.clip.clip import Channel, Clip
+from genmojo_core.sentences import say
 
 LEAST_JITTER = 0.005  # standard deviation of the log scales from which depth is corrected: measured depth has less
 _LEAST_PIXELS = 64  # of background in both frames, below which a pair says nothing
@@ -32,7 +33,7 @@ def without_jitter(clip: Clip, free: np.ndarray) -> Clip:  # free (T, H, W) bool
         return clip
     value = (clip.depth.value * np.exp(-jitter)[:, None, None]).astype(np.float32)
     percent = 100.0 * float(np.abs(np.diff(jitter)).max())
-    sentence = f"the depth's scale jumped by up to {percent:.1f} % from frame to frame and was brought to rest"
+    sentence = say("depth_steadied", percent=percent)
     depth = replace(clip.depth, value=value, source=f"{clip.depth.source}, steadied")
     return clip.with_channels(depth=depth, guesses=(*clip.guesses, sentence))
 

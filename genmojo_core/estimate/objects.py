@@ -12,6 +12,7 @@ from genmojo_core.estimate import masks
 from genmojo_core.estimate.flow import SequenceFlow
 from genmojo_core.estimate.masks import Box, Prompt
 from genmojo_core.estimate.models import Models
+from genmojo_core.sentences import say
 
 _SEARCHED = (0.0, 0.5, 0.25, 0.75, 1.0)  # of the clip: frames in which names are looked for until one is found
 _MOST_OBJECTS = 12  # a detector's best boxes
@@ -35,7 +36,7 @@ def with_objects(
     """
     if clip.masks is not None and (clip.masks.value[clip.masks.valid] > 0).any():
         if prompts:
-            clip = _told(clip, "the clip has masks, so the boxes were not used")
+            clip = _told(clip, say("boxes_not_used"))
         return _carried_on(clip, flows)
     source = masks.METHOD
     if not prompts and models.detector is not None and models.phrases:
@@ -61,7 +62,7 @@ def _labelled(clip: Clip, found: np.ndarray, source: str) -> Clip:
     clip = clip.with_channels(
         masks=channel, object_ids=used.astype(np.int64), object_names=tuple(f"object {label}" for label in used)
     )
-    return _told(clip, f"masks are a guess from {source}; look at them before trusting the scene")
+    return _told(clip, say("masks_guess", source=source))
 
 
 def _carried_on(clip: Clip, flows: Callable[[], SequenceFlow]) -> Clip:
@@ -84,7 +85,7 @@ def _carried_on(clip: Clip, flows: Callable[[], SequenceFlow]) -> Clip:
     value[lacking], valid[lacking] = found[lacking], True
     count = int(lacking.sum())
     clip = clip.with_channels(masks=Channel(value, valid, f"{channel.source}; {count} frames carried on by flow"))
-    return _told(clip, f"{count} of {len(clip)} frames have no mask; theirs are a guess carried on by optical flow")
+    return _told(clip, say("masks_carried", count=count, frames=len(clip)))
 
 
 def _detected(clip: Clip, models: Models) -> list[Box]:

@@ -16,6 +16,7 @@ from genmojo_core.optimise.bend import Bend, no_bend
 from genmojo_core.optimise.motion import ObjectMotion
 from genmojo_core.optimise.surfaces import Patch
 from genmojo_core.scene.initialise import unproject
+from genmojo_core.sentences import say
 
 FARTHEST = 1e3  # poses that move an object by more than this many scene depths are no poses
 
@@ -83,7 +84,7 @@ def usable_motion(clip: Clip, motions: Sequence[ObjectMotion]) -> tuple[list[Obj
                 bend=no_bend(frames, motion.path.centre, 1.0), depth=(None,) * frames,
             )
         )  # fmt: skip
-        doubts.append(f"the motion of {clip.object_names[k]} could not be followed; it goes where its pixels are")
+        doubts.append(say("motion_not_found", name=clip.object_names[k]))
     return checked, doubts
 
 

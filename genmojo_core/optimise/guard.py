@@ -23,6 +23,7 @@ from genmojo_core.errors import GenmojoError
 from genmojo_core.scene import safemath
 from genmojo_core.scene.gaussians import Gaussians
 from genmojo_core.scene.scene4d import Scene4D
+from genmojo_core.sentences import say
 
 Verdict = Literal["step", "skip", "rollback"]
 BAD_IN_A_ROW = 3
@@ -59,7 +60,7 @@ class Guard:
         self.bad_steps = self.rollbacks = self.good_steps = 0
         self.rate = 1.0
         self.quarantined: dict[str, int] = {}
-        self._counts: dict[str, int] = {}
+        self._counts: dict[tuple[object, ...], int] = {}
         self._news: list[str] = []
         self.snapshot()
 
@@ -85,7 +86,7 @@ class Guard:
             if count:
                 self._neutralise(gaussians, bad)
                 self.quarantined[owner] = self.quarantined.get(owner, 0) + count
-                self._news.append(f"{count} Gaussians of {owner} were not finite and were made transparent")
+                self._news.append(say("made_transparent", count=count, name=owner))
             self._limit(owner, gaussians)
         return self.news()
 
@@ -102,7 +103,7 @@ class Guard:
             return "step"
         self.bad_steps += 1
         self.good_steps = 0
-        self._news.append(f"a step was left out: {', '.join(culprits)} not finite")
+        self._news.append(say("step_left_out", culprits=", ".join(culprits)))
         return "rollback" if self.bad_steps >= BAD_IN_A_ROW else "skip"
 
     def snapshot(self) -> bool:
@@ -128,8 +129,7 @@ class Guard:
             raise GenmojoError("numeric", "the optimisation gives non-finite numbers again and again", "",
                                "start from the last checkpoint with smaller learning rates")  # fmt: skip
         self.rate *= BACK_OFF
-        self._news.append(f"{BAD_IN_A_ROW} bad steps in a row: back to the last good state, learning rates x "
-                          f"{self.rate:g}")  # fmt: skip
+        self._news.append(say("rolled_back", count=BAD_IN_A_ROW, rate=self.rate))
         with torch.no_grad():
             for p, value in self._good.values.items():
                 p.copy_(value)
@@ -161,7 +161,7 @@ class Guard:
                 good = (p.grad.abs() < LARGEST).reshape(len(p), -1).all(dim=1)
                 p.grad[~good] = 0.0
                 owner, name = rows_of[id(p)]
-                self._count(f"gradients of {name} of {owner} were not finite and were left out", int((~good).sum()))
+                self._count(int((~good).sum()), "gradients_left_out", what=name, name=owner)
         return culprits
 
     def _lost(self) -> list[str]:
@@ -186,20 +186,21 @@ class Guard:
         for name, limit in LIMITS.items():
             values = getattr(gaussians, name)
             if len(values) and bool(values.abs().max() > limit):
-                self._count(f"{name} of {owner} were limited to +-{limit:g}", int((values.abs() > limit).sum()))
+                self._count(int((values.abs() > limit).sum()), "limited", what=name, name=owner, limit=limit)
                 values.clamp_(-limit, limit)
         lengths = safemath.safe_norm(gaussians.quats)
         far = (lengths < QUAT_LENGTHS[0]) | (lengths > QUAT_LENGTHS[1])
         if bool(far.any()):
             gaussians.quats[far] = safemath.normalise(gaussians.quats[far])
-            self._count(f"quaternions of {owner} were made unit ones", int(far.sum()))
+            self._count(int(far.sum()), "made_unit", name=owner)
 
-    def _count(self, what: str, count: int) -> None:
-        """Add to a count; it is news when it passes the next power of ten."""
+    def _count(self, count: int, sentence: str, **values: object) -> None:
+        """Add to a sentence's count; it is news when that passes the next power of ten."""
+        what = (sentence, *values.values())
         before = self._counts.get(what, 0)
         self._counts[what] = before + count
         if len(str(before + count)) > len(str(before)) or not before:
-            self._news.append(f"{before + count} {what}")
+            self._news.append(say(sentence, count=before + count, **values))
 
     def _neutralise(self, gaussians: Gaussians, bad: Tensor) -> None:
         with torch.no_grad():

@@ -25,6 +25,7 @@ from genmojo_core.scene.gaussians import Gaussians
 from genmojo_core.scene.initialise import Points, points_of_image, project, surface_axes, uncovered
 from genmojo_core.scene.placement import Placement
 from genmojo_core.scene.scene4d import Layout, ObjectModel, Scene4D
+from genmojo_core.sentences import say
 
 START_SHARE = 0.7  # of the allowed Gaussians; the rest is left to density control
 FIRST_SHARE = 0.65  # of these, spent on the canonical frame
@@ -67,7 +68,7 @@ def lift(clip: Clip, plan: EffectPlan, config: RunConfig, motions: Sequence[Move
         if len(points) < MIN_POINTS:
             points = _padded(points, clip, k, motions[k])
         if not len(points):
-            warnings.append(f"object {clip.object_names[k]} is never visible and is left out")
+            warnings.append(say("never_visible", name=clip.object_names[k]))
             continue
         rows[k] = len(objects)
         frames_of.append(_canonical_frame(points))

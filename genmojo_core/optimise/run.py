@@ -63,6 +63,7 @@ from genmojo_core.optimise.unseen import Moment, UnseenViews
 from genmojo_core.optimise.working_space import working_space
 from genmojo_core.priors.choose import choose as choose_prior
 from genmojo_core.render.backend import choose
+from genmojo_core.sentences import say
 from genmojo_core.store.scene_file import BakedScene
 
 SNAPSHOT_EVERY = 50  # steps
@@ -219,9 +220,7 @@ class Run:
         motions = self.motions or initial_motion(self.clip, deadline=self._motion_deadline())
         self.motions = motions
         if any(motion.hurried for motion in motions):
-            yield Warned(
-                *self.clock.now(), "motion_cut", "there was no time to follow every object exactly; give more budget"
-            )
+            yield Warned(*self.clock.now(), "motion_cut", say("motion_cut"))
         motions, doubts = usable_motion(self.clip, motions)
         for message in doubts:
             yield Warned(*self.clock.now(), "motion_not_found", message)

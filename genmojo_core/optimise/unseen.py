@@ -40,6 +40,7 @@ from genmojo_core.scene.deform import Deformation
 from genmojo_core.scene.gaussians import Gaussians
 from genmojo_core.scene.initialise import Points, surface_axes
 from genmojo_core.scene.scene4d import ObjectModel
+from genmojo_core.sentences import say
 
 ELEVATION = 30.0  # degrees around the reference's
 TRUSTED = 0.3  # confidence of a frame's pose from which it may contradict the prior
@@ -109,14 +110,14 @@ class UnseenViews:
         sentences = []
         if isinstance(self.prior, Zero123Prior):
             needed = self.prior.forecast_mb(self.config.prior_views)
-            sentences.append(f"the prior {self.prior.kind} is expected to need {needed:.0f} MiB")
+            sentences.append(say("prior_memory", name=self.prior.kind, megabytes=needed))
         for one in self.subjects:
             if not one.references:
                 reason = "; ".join(dict.fromkeys(one.off.values()))
-                sentences.append(f"the prior is off for {one.name}: {reason}")
+                sentences.append(say("prior_off", name=one.name, reason=reason))
             elif one.off:
                 frames = ", ".join(f"{t} ({reason})" for t, reason in sorted(one.off.items()))
-                sentences.append(f"the prior is off for {one.name} in frames {frames}")
+                sentences.append(say("prior_off_in_frames", name=one.name, frames=frames))
         return sentences
 
     def add_to(self, outcome: Outcome, moment: Moment, weight: float, generator: torch.Generator) -> None:
@@ -191,8 +192,7 @@ class UnseenViews:
         self.useless = self.useless + 1 if left_out > 0.5 else 0
         if left_out and not self.told:
             self.told = True
-            self._news.append(f"{100 * left_out:.2g} % of what the prior said of {one.name} was no usable number and "
-                              "is left out")  # fmt: skip
+            self._news.append(say("prior_no_number", percent=100 * left_out, name=one.name))
 
     def _render(
         self, models: list[ObjectModel], placed: PlacedReference, t: int, views: ViewOffsets, moment: Moment

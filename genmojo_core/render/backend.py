@@ -14,6 +14,7 @@ from genmojo_core.clip.cameras import View
 from genmojo_core.errors import GenmojoError
 from genmojo_core.kernels.probe import kernels_work
 from genmojo_core.render.rasterizer import Rendering, Splats
+from genmojo_core.sentences import say
 
 
 class Splat(Protocol):
@@ -90,7 +91,7 @@ def _compile(report: Callable[[str], None] | None) -> None:
     from genmojo_core.scene.plane_sampling import sample_planes, sample_time_planes
 
     if report is not None and is_cold():
-        report("Compiling the CPU kernels, once on this machine (about 10 seconds).")
+        report(say("compiling"))
     places = torch.tensor([[0.0, 0.0, 2.0]], requires_grad=True)
     one = Splats(places, torch.tensor([[1.0, 0, 0, 0]]), torch.ones(1, 3), torch.full((1,), 0.5), torch.ones(1, 3))
     picture = autograd.splat(one, View(torch.eye(4).numpy(), 8.0, 8.0, 4.0, 4.0, 8, 8)).features

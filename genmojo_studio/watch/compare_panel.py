@@ -102,6 +102,7 @@ class ComparePanel(QWidget):
         self.share.setRange(0, 100)
         self.share.setValue(50)
         self.share.setMaximumWidth(160)
+        self.share.hide()
         self.said = line(tr("Choose another scene, or freeze this one, and compare as it goes on."))
         self.table = QTreeWidget()
         self.table.setHeaderLabels([tr("Figure"), tr("On show"), tr("Other"), tr("Difference")])
@@ -196,7 +197,7 @@ class ComparePanel(QWidget):
         self.active_changed.emit(self.active)
         blinking = self.active and self.mode.currentData() == "blink"
         self._blink.start() if blinking else self._blink.stop()
-        self.share.setEnabled(self.mode.currentData() in ("wipe", "difference"))
+        self.share.setVisible(self.mode.currentData() in ("wipe", "difference"))
         self._tell()
         self._join()
         self.request_wanted.emit()
@@ -240,7 +241,7 @@ class ComparePanel(QWidget):
             one, two = a.get(name, math.nan), b.get(name, math.nan)
             apart = two - one
             texts = [_figure(value, "") for value in (one, two)]
-            self.table.addTopLevelItem(QTreeWidgetItem([name, *texts, _figure(apart, "+")]))
+            self.table.addTopLevelItem(QTreeWidgetItem([name[:1].upper() + name[1:], *texts, _figure(apart, "+")]))
         self.table.resizeColumnToContents(0)
 
 

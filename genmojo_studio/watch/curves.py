@@ -14,7 +14,7 @@ from genmojo_core.effects.texts import sentence
 from genmojo_core.optimise import gain
 from genmojo_studio.state import AppState
 from genmojo_studio.theme import SERIES, colours
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import told, tr
 from genmojo_studio.watch import plots
 from genmojo_studio.watch.run_log import RunLog
 
@@ -164,10 +164,10 @@ class Curves(QWidget):
         table = colours(self._state.theme)
         for mark in self._log.marks[len(self._mark_items) :]:
             pen = pg.mkPen(table.bad if mark.kind == "warning" else table.dim, style=_MARKS.get(mark.kind))
-            label = mark.text if mark.kind == "stage" else None
+            label = told(mark.text) if mark.kind == "stage" else None
             options = {"position": 0.08, "color": table.dim, "rotateAxis": (1, 0), "anchors": [(0, 0), (0, 1)]}
             line = pg.InfiniteLine(mark.seconds, angle=90, pen=pen, label=label, labelOpts=options)
-            line.setToolTip(sentence(mark.said, tr) or mark.text)
+            line.setToolTip(sentence(mark.said, tr) or told(mark.text))
             self.plot.addItem(line, ignoreBounds=True)
             self._mark_items.append(line)
 

@@ -134,12 +134,12 @@ class EffectsTable(QTreeWidget):
 
 
 def _item(row: Mapping[str, Any]) -> QTreeWidgetItem:
-    evidence = f"{row['evidence']:.3g} {tr(str(row['unit']))}"
-    bound = f"{row['threshold']:.3g}"
+    unit, bound = tr(str(row["unit"])), f"{row['threshold']:.3g}"
+    evidence = f"{row['evidence']:.3g} {unit}"
     sign = "≥" if row["evidence"] >= row["threshold"] else "<"
     known = row.get("known")
     cost = f"{known['ms']:.1f} ms" if known and "ms" in known else f"≈ {row['ms_per_step']:.1f} ms"
-    item = QTreeWidgetItem([_title(str(row["name"])), f"{evidence} {sign} {bound}", cost])
+    item = QTreeWidgetItem([_title(str(row["name"])), f"{row['evidence']:.3g} {sign} {bound} {unit}", cost])
     item.setData(0, _NAME, row["name"])
     item.setCheckState(0, Qt.CheckState.Checked if row["on"] else Qt.CheckState.Unchecked)
     said = "\n".join(

@@ -23,6 +23,7 @@ from genmojo_studio.watch.trajectory import Trajectory
 _OWN_NUMBER = (1 << 48) - 1  # the object's id stands above these bits of a Gaussian's number
 _MOST_ROWS = 40
 _ROW = Qt.ItemDataRole.UserRole
+_UID = Qt.ItemDataRole.UserRole + 1
 
 
 class PickingPanel(QWidget):
@@ -112,6 +113,20 @@ class PickingPanel(QWidget):
             row = int(rows[0])
             self._tasks.run(lambda: trajectory.of(snapshot, row), self._take, notify.tell)
 
+    def carry_over(self, snapshot: SceneSnapshot) -> None:
+        """The run that was asked has ended: the same Gaussians in its scene, which knows their whole ways."""
+        self._snapshot = snapshot
+        self.list.blockSignals(True)
+        for i in reversed(range(self.list.topLevelItemCount())):
+            item = self.list.topLevelItem(i)
+            rows = np.flatnonzero(snapshot.uid == np.uint64(int(item.data(0, _UID)))) if item is not None else ()
+            if item is not None and len(rows):
+                item.setData(0, _ROW, int(rows[0]))
+            else:
+                self.list.takeTopLevelItem(i)
+        self.list.blockSignals(False)
+        self._follow_chosen()
+
     def _follow_chosen(self) -> None:
         item, snapshot = self.list.currentItem(), self._snapshot
         if item is None or snapshot is None:
@@ -159,6 +174,7 @@ def _item(one: Contributor) -> QTreeWidgetItem:
     ]
     item = QTreeWidgetItem(texts)
     item.setData(0, _ROW, one.row)
+    item.setData(0, _UID, str(one.uid))
     picture = QPixmap(14, 14)
     picture.fill(QColor.fromRgbF(*(min(max(c, 0.0), 1.0) for c in one.colour)))
     item.setIcon(0, QIcon(picture))

@@ -14,6 +14,8 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from genmojo_studio.state import AppState
 from genmojo_studio.theme import colours
 
+_MARGINS = (2, 10, 10, 2)  # left, top, right, bottom: the highest number of an axis is not cut off
+
 
 class LatePlot(QWidget):
     """A plot that is made when it is first on show: that takes 50 ms, and most lie behind other panels.
@@ -59,6 +61,7 @@ def dress(plot: pg.PlotWidget, theme: str) -> None:
     """Gives a plot the colours of a theme."""
     table = colours(theme)
     plot.setBackground(table.field)
+    plot.getPlotItem().setContentsMargins(*_MARGINS)
     for side in ("bottom", "left"):
         axis = plot.getAxis(side)
         axis.setPen(table.line)
@@ -70,5 +73,11 @@ def dress(plot: pg.PlotWidget, theme: str) -> None:
 
 
 def settle(plot: pg.PlotWidget) -> None:
-    """Fits the axes to what was drawn now: left to the next repaint, their numbers could stay as they were before."""
+    """Fits the axes to what was drawn now: left to the next repaint, their numbers could stay as they were before.
+
+    A plot of nothing has no numbers.
+    """
+    has_values = any(item.xData is not None and len(item.xData) for item in plot.listDataItems())
+    for side in ("bottom", "left"):
+        plot.getAxis(side).setStyle(showValues=has_values)
     plot.getPlotItem().getViewBox().updateAutoRange()

@@ -17,9 +17,9 @@ from genmojo_core.effects.difficulty import Difficulty
 from genmojo_core.effects.forecast import Forecast, foretold, work_of
 from genmojo_core.effects.machine import known_costs
 from genmojo_studio.state import AppState
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import told, tr
 from genmojo_studio.watch import forecast
-from genmojo_studio.watch.controls import dim, number, set_role
+from genmojo_studio.watch.controls import as_sentence, dim, number, set_role
 from genmojo_studio.watch.effects_table import EffectsTable
 from genmojo_studio.watch.run_log import RunLog
 from genmojo_studio.worker.protocol import RunRequest
@@ -45,8 +45,8 @@ class RunSetup(QWidget):
         texts = (tr("Draft"), tr("Standard"), tr("Full (as the paper)"), tr("Best for the budget"))
         for name, text in zip((*PRESETS, AUTO), texts, strict=True):
             self.preset.addItem(text, name)
-        told = tr("Size, Gaussians and pace are chosen so that the budget buys most.")
-        self.preset.setItemData(self.preset.findData(AUTO), told, Qt.ItemDataRole.ToolTipRole)
+        about = tr("Size, Gaussians and pace are chosen so that the budget buys most.")
+        self.preset.setItemData(self.preset.findData(AUTO), about, Qt.ItemDataRole.ToolTipRole)
         self.budget = number(0, 86400, " s", 0, 10)
         self.budget.setToolTip(tr("The run ends after this time with what it has."))
         self.device = QComboBox()
@@ -169,24 +169,25 @@ class RunSetup(QWidget):
         clip = self._state.clip
         if clip is None or not self.effects.rows:
             return
-        told = self._forecast(clip)
-        text = self._expected(clip) + tr("about {mb:.1f} GB of memory.").format(mb=told.megabytes / 1000)
-        if told.too_large:
+        needed = self._forecast(clip)
+        text = self._expected(clip) + tr("about {mb:.1f} GB of memory.").format(mb=needed.megabytes / 1000)
+        if needed.too_large:
             text += " " + tr("That is more than this machine has free: choose a smaller preset.")
         edited = [tr("The run uses the masks that were corrected here.")] if self._state.masks_path else []
         came = [self._came] if self._came else []
-        self._say("\n".join([text, *came, *edited, *self.effects.guesses]), "bad" if told.too_large else "dim")
+        guesses = [as_sentence(told(guess)) for guess in self.effects.guesses]
+        self._say("\n".join([text, *came, *edited, *guesses]), "bad" if needed.too_large else "dim")
 
     def _expected(self, clip: Clip) -> str:
         """Seconds and dB to expect, in words; "" before they are known."""
-        told = self._foretold(clip)
-        if told is None:
+        expected = self._foretold(clip)
+        if expected is None:
             return ""
         return tr("Expected: {time} (± {spread}), {psnr:.1f} dB (± {error:.1f}), ").format(
-            time=forecast.spoken(told.seconds),
-            spread=forecast.spoken(told.seconds_error),
-            psnr=told.decibel,
-            error=told.decibel_error,
+            time=forecast.spoken(expected.seconds),
+            spread=forecast.spoken(expected.seconds_error),
+            psnr=expected.decibel,
+            error=expected.decibel_error,
         )
 
     def _foretold(self, clip: Clip | None) -> Forecast | None:

@@ -21,8 +21,8 @@ from PySide6.QtWidgets import (
 from genmojo_studio.actions import ActionTable
 from genmojo_studio.icons import icon
 from genmojo_studio.state import AppState
-from genmojo_studio.translate import tr
-from genmojo_studio.watch.controls import dim, number, row, set_role
+from genmojo_studio.translate import told, tr
+from genmojo_studio.watch.controls import as_sentence, dim, number, row, set_role
 from genmojo_studio.watch.forecast import spoken
 from genmojo_studio.watch.parameter_row import ParameterRow
 from genmojo_studio.watch.run_control import RunControl
@@ -93,8 +93,8 @@ class RunStatus(QWidget):
     def refresh(self) -> None:
         """Shows the state that the worker last acknowledged."""
         control = self._control
-        text = _state_text(control.state)
-        self.state_label.setText(f"{text} – {control.phase}" if control.phase and control.live else text)
+        text, more = _state_text(control.state), told(control.phase) if control.live else _outcome(control.log.outcome)
+        self.state_label.setText(f"{text} – {more}" if more and control.state not in ("failed", "") else text)
         for name, button in self._buttons.items():
             shown = "play" if name == "pause" and control.state == "paused" else name
             button.setIcon(icon(shown, self._state.theme))
@@ -130,7 +130,7 @@ class RunStatus(QWidget):
         if self._control.view_cost and self._control.live:
             parts.append(tr("the view costs {share:.1f} %").format(share=self._control.view_cost * 100))
         self.figures.setText("  ·  ".join(parts))
-        warnings = [mark.text for mark in log.marks if mark.kind == "warning"]
+        warnings = [as_sentence(told(mark.text)) for mark in log.marks if mark.kind == "warning"]
         set_role(self.warnings, "warn")
         self.warnings.setText("\n".join(dict.fromkeys(warnings[-4:])))
         self._show_stages()
@@ -143,12 +143,12 @@ class RunStatus(QWidget):
                 part.deleteLater()
         for i, stage in enumerate(log.stages):
             if i == len(self._stage_rows):
-                made = (QLabel(stage.name), QProgressBar(), QLabel())
+                made = (QLabel(), QProgressBar(), QLabel())
                 for column, widget in enumerate(made):
                     self.stages.addWidget(widget, i, column)
                 self._stage_rows.append(made)
             name, bar, left = self._stage_rows[i]
-            name.setText(stage.name)
+            name.setText(told(stage.name))
             bar.setRange(0, max(stage.steps, 1))
             bar.setFormat(f"{stage.done} / {stage.steps}" if stage.steps else "")
             ended = stage.ended is not None
@@ -182,6 +182,15 @@ def _banner() -> tuple[QFrame, QLabel, QPushButton]:
     layout.addWidget(button)
     frame.hide()
     return frame, text, button
+
+
+def _outcome(reason: str) -> str:
+    """Why a run ended before its last step; "" where it did not."""
+    return {
+        "goal": tr("the goal is reached"),
+        "budget": tr("the budget is used up"),
+        "interrupted": tr("stopped early"),
+    }.get(reason, "")
 
 
 def _state_text(state: str) -> str:

@@ -60,7 +60,7 @@ class TracksPanel(QWidget):
         self.said = QLabel()
         self.said.setProperty("role", "dim")
         self.worst = QTreeWidget()
-        self.worst.setHeaderLabels([tr("Track"), tr("Worst frame"), tr("Distance (px at 256)")])
+        self.worst.setHeaderLabels([tr("Track"), tr("Worst frame"), tr("px at 256")])
         self.worst.setRootIsDecorated(False)
         bring, jump = QPushButton(tr("Import…")), QPushButton(tr("Jump to worst"))
         self.follow = QPushButton(tr("Follow through the scene"))
@@ -71,7 +71,8 @@ class TracksPanel(QWidget):
         layout = QHBoxLayout(self)
         layout.setContentsMargins(8, 8, 8, 8)
         layout.addLayout(_column(self.list, row(bring, self.follow)), 3)
-        choice = row(self.which, QLabel(tr("against")), self.reference, self.said)
+        self._choice = (self.which, QLabel(tr("against")), self.reference)
+        choice = row(*self._choice, self.said)
         layout.addLayout(_column(choice, self.plot), 5)
         layout.addLayout(_column(self.worst, row(jump)), 3)
         self.list.itemChanged.connect(self._ticked)
@@ -172,6 +173,8 @@ class TracksPanel(QWidget):
         second = self.sets.sets.get(str(self.reference.currentData()))
         self.worst.clear()
         self._apart = self._chosen = None
+        for part in self._choice:
+            part.setVisible(bool(self.sets.sets))
         self.said.setText("" if self.sets.sets else tr("Import tracks, or place points in the workspace Annotate."))
         if first is None or second is None or first is second:
             self.plot.draw()

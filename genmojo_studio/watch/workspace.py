@@ -244,11 +244,14 @@ class WatchWorkspace(QMainWindow):
 
     def _scene_changed(self) -> None:
         self.undo.clear()
-        scene = self.session.scene
+        scene, snapshot = self.session.scene, self.session.snapshot
         self.tracks.show_scene(scene)
         if scene is not None and not self.control.log.step:
             self.curves.show_log(RunLog.of_scene(scene.curve))
-        self.picking.clear()
+        if scene is not None and snapshot is not None and self.session.path == self.control.scene_path:
+            self.picking.carry_over(snapshot)
+        else:
+            self.picking.clear()
 
     def _clip_changed(self) -> None:
         clip = self.state.clip

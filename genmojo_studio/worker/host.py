@@ -23,6 +23,7 @@ from types import FrameType, TracebackType
 from typing import Any, Protocol
 
 from genmojo_core.errors import GenmojoError
+from genmojo_core.sentences import say
 from genmojo_core.store.atomic import write_bytes
 from genmojo_studio.worker import machine, runs
 from genmojo_studio.worker.governor import Governor
@@ -129,7 +130,7 @@ class Optimise:
         session.enter("ready")
         config = preset(request.preset, **request.changes)
         if not request.resume:
-            host.announce("looking", "lifting one frame", 60.0)
+            host.announce("looking", say("lifting"), 60.0)
             first = first_cloud(request)
             if first is not None:
                 host.publisher.show(first.cloud, first.t, ("points", 0), first.setting)
@@ -146,7 +147,7 @@ class Optimise:
         effect_costs.keep_run(clip.name, run.run.plan)
         if session.keep and hasattr(run.run, "scene"):
             session.enter("finishing")
-            host.announce("writing", "writing the scene", 120.0)
+            host.announce("writing", say("writing"), 120.0)
             path = Path(request.output) if request.output else host.folder / runs.SCENE
             scene_hdf5.write(run.run.bake(), path)
             host.tell({"type": "event", "event": {"event": "SceneWritten", "path": str(path)}})
@@ -156,7 +157,7 @@ class Optimise:
 
 def drive(host: Host, run: Optimisation) -> None:
     """Let the session drive a run, with the phase told."""
-    host.announce("stepping", "optimising", 0.0)
+    host.announce("stepping", say("optimising"), 0.0)
     host.session.drive(run)
 
 

@@ -22,6 +22,7 @@ from genmojo_core.errors import GenmojoError
 from genmojo_core.estimate.complete import complete
 from genmojo_core.estimate.masks import Box
 from genmojo_core.estimate.models import Models
+from genmojo_core.sentences import say
 from genmojo_studio.view3d.snapshot import SnapshotObject
 from genmojo_studio.worker.preview_codec import FrameArrays, Setting
 from genmojo_studio.worker.protocol import RunRequest
@@ -50,7 +51,7 @@ def prepare(request: RunRequest, announce: Announce, stopped: Callable[[], bool]
     Raises GenmojoError for what is wrong with the request or the clip, StopAsked.
     """
     config = preset(request.preset, **request.changes)
-    announce("reading", "reading the clip", 60.0)
+    announce("reading", say("reading"), 60.0)
     clip = folders.read(request.clip, frames=request.frames, short_side=config.short_side, ignore=request.ignore,
                         pixel_aspect=request.pixel_aspect)  # fmt: skip
     clip = mask_file.with_masks(clip, request.masks) if request.masks else clip
@@ -58,7 +59,7 @@ def prepare(request: RunRequest, announce: Announce, stopped: Callable[[], bool]
     def tell(stage: str, share: float) -> None:
         if stopped():
             raise StopAsked
-        announce("estimating", f"looking at the clip: {stage}, {100 * share:.0f} %", 0.0)
+        announce("estimating", say("estimating", stage=stage, percent=100 * share), 0.0)
 
     clip = complete(clip, boxes=_boxes(request), progress=tell, models=_models(request))
     return clip, decide.plan(clip, config, request.effects), config
@@ -179,7 +180,7 @@ class WatchedRun:
 
 def _load(config: RunConfig, announce: Announce) -> None:
     """torch, the run's modules, the kernels."""
-    announce("loading", "loading the optimiser", LOAD_SECONDS)
+    announce("loading", say("loading"), LOAD_SECONDS)
     importlib.import_module("genmojo_core.optimise.run")
     if config.device.startswith("cuda"):
         return

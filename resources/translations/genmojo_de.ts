@@ -1644,8 +1644,8 @@
       <translation>Tasten wie in</translation>
     </message>
     <message>
-      <source>Language</source>
-      <translation>Sprache</translation>
+      <source>Language (after a restart)</source>
+      <translation>Sprache (nach einem Neustart)</translation>
     </message>
     <message>
       <source>New key</source>
@@ -1664,6 +1664,14 @@
       <translation>Die Zeichenkerne werden vorbereitet, einmal auf diesem Rechner …</translation>
     </message>
     <message>
+      <source>No OpenGL here: the processor draws. Everything works, large scenes turn slower.</source>
+      <translation>Kein OpenGL: der Prozessor zeichnet. Alles geht, große Szenen drehen sich langsamer.</translation>
+    </message>
+    <message>
+      <source>OpenGL is emulated here: the processor draws directly, which is faster.</source>
+      <translation>OpenGL wird hier nachgeahmt: der Prozessor zeichnet direkt, das ist schneller.</translation>
+    </message>
+    <message>
       <source>elevation {degrees:+.1f}°</source>
       <translation>Höhe {degrees:+.1f}°</translation>
     </message>
@@ -1678,14 +1686,6 @@
     <message>
       <source>roll {degrees:+.1f}°</source>
       <translation>Rollen {degrees:+.1f}°</translation>
-    </message>
-    <message>
-      <source>No OpenGL here: the processor draws. Everything works, large scenes turn slower.</source>
-      <translation>Kein OpenGL: der Prozessor zeichnet. Alles geht, große Szenen drehen sich langsamer.</translation>
-    </message>
-    <message>
-      <source>OpenGL is emulated here: the processor draws directly, which is faster.</source>
-      <translation>OpenGL wird hier nachgeahmt: der Prozessor zeichnet direkt, das ist schneller.</translation>
     </message>
     <message>
       <source>Drag to turn, Shift+drag to move, wheel to go nearer; click to ask what is there</source>
@@ -2308,6 +2308,18 @@
       <translation>Während des Laufs ändern</translation>
     </message>
     <message>
+      <source>the goal is reached</source>
+      <translation>das Ziel ist erreicht</translation>
+    </message>
+    <message>
+      <source>the budget is used up</source>
+      <translation>das Budget ist aufgebraucht</translation>
+    </message>
+    <message>
+      <source>stopped early</source>
+      <translation>vorzeitig beendet</translation>
+    </message>
+    <message>
       <source>No run</source>
       <translation>Kein Lauf</translation>
     </message>
@@ -2454,10 +2466,6 @@
     <message>
       <source>Worst frame</source>
       <translation>Schlechtestes Bild</translation>
-    </message>
-    <message>
-      <source>Distance (px at 256)</source>
-      <translation>Abstand (px bei 256)</translation>
     </message>
     <message>
       <source>Jump to worst</source>
@@ -3928,6 +3936,166 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>corners per object</source>
       <translation>Ecken je Objekt</translation>
+    </message>
+    <message>
+      <source>the camera is taken to stand still; its field of view is taken to be {degrees:.3g} degrees high</source>
+      <translation>angenommen wird, dass die Kamera stillsteht und ihr Sichtfeld {degrees:.3g} Grad hoch ist</translation>
+    </message>
+    <message>
+      <source>the camera's motion is a guess: it is taken to turn on the spot; its field of view is taken to be {degrees:.3g} degrees high</source>
+      <translation>die Bewegung der Kamera ist geschätzt: angenommen wird, dass sie sich auf der Stelle dreht und ihr Sichtfeld {degrees:.3g} Grad hoch ist</translation>
+    </message>
+    <message>
+      <source>the camera's motion is a guess from background points; its field of view is taken to be {degrees:.3g} degrees high</source>
+      <translation>die Bewegung der Kamera ist aus Punkten des Hintergrunds geschätzt; angenommen wird ein Sichtfeld von {degrees:.3g} Grad Höhe</translation>
+    </message>
+    <message>
+      <source>depth comes from {source}</source>
+      <translation>die Tiefe kommt von {source}</translation>
+    </message>
+    <message>
+      <source>depth comes from {source}; its scale and shift are a guess, so distances are an order, not a measure</source>
+      <translation>die Tiefe kommt von {source}; ihr Maßstab und Nullpunkt sind geschätzt, Abstände sind also eine Reihenfolge, kein Maß</translation>
+    </message>
+    <message>
+      <source>depth is a guess from {method}; distances between objects are an order, not a measure</source>
+      <translation>die Tiefe ist geschätzt aus {method}; Abstände zwischen Objekten sind eine Reihenfolge, kein Maß</translation>
+    </message>
+    <message>
+      <source>ground contact, occlusion order and rounded shapes</source>
+      <translation>Bodenkontakt, Verdeckungen und gerundeten Formen</translation>
+    </message>
+    <message>
+      <source>the depth's scale jumped by up to {percent:.1f} % from frame to frame and was brought to rest</source>
+      <translation>der Maßstab der Tiefe sprang um bis zu {percent:.1f} % von Bild zu Bild und wurde beruhigt</translation>
+    </message>
+    <message>
+      <source>{share:.1%} of the background is never seen and was painted in from around it</source>
+      <translation>{share:.1%} des Hintergrunds sind nie zu sehen und wurden aus der Umgebung ergänzt</translation>
+    </message>
+    <message>
+      <source>the clip has masks, so the boxes were not used</source>
+      <translation>der Clip hat Masken, die Rahmen wurden daher nicht verwendet</translation>
+    </message>
+    <message>
+      <source>masks are a guess from {source}; look at them before trusting the scene</source>
+      <translation>die Masken sind geschätzt mit {source}; vor der Arbeit mit der Szene ansehen</translation>
+    </message>
+    <message>
+      <source>{count} of {frames} frames have no mask; theirs are a guess carried on by optical flow</source>
+      <translation>{count} von {frames} Bildern haben keine Maske; ihre ist geschätzt, vom optischen Fluss weitergetragen</translation>
+    </message>
+    <message>
+      <source>{count} of {frames} frames of {name} cannot be decoded and are left out</source>
+      <translation>{count} von {frames} Bildern von {name} sind nicht lesbar und fehlen</translation>
+    </message>
+    <message>
+      <source>reading the clip</source>
+      <translation>liest den Clip</translation>
+    </message>
+    <message>
+      <source>looking at the clip: {stage}, {percent:.0f} %</source>
+      <translation>untersucht den Clip: {stage}, {percent:.0f} %</translation>
+    </message>
+    <message>
+      <source>loading the optimiser</source>
+      <translation>lädt die Optimierung</translation>
+    </message>
+    <message>
+      <source>compiling the CPU kernels, once on this machine (about 10 seconds)</source>
+      <translation>übersetzt die Rechenkerne, einmal auf diesem Rechner (etwa 10 Sekunden)</translation>
+    </message>
+    <message>
+      <source>lifting one frame</source>
+      <translation>hebt ein Bild in den Raum</translation>
+    </message>
+    <message>
+      <source>optimising</source>
+      <translation>optimiert</translation>
+    </message>
+    <message>
+      <source>writing the scene</source>
+      <translation>schreibt die Szene</translation>
+    </message>
+    <message>
+      <source>masks</source>
+      <translation>Masken</translation>
+    </message>
+    <message>
+      <source>cameras</source>
+      <translation>Kameras</translation>
+    </message>
+    <message>
+      <source>depth</source>
+      <translation>Tiefe</translation>
+    </message>
+    <message>
+      <source>background</source>
+      <translation>Hintergrund</translation>
+    </message>
+    <message>
+      <source>first scene</source>
+      <translation>erste Szene</translation>
+    </message>
+    <message>
+      <source>lift</source>
+      <translation>Anheben</translation>
+    </message>
+    <message>
+      <source>joint</source>
+      <translation>gemeinsam</translation>
+    </message>
+    <message>
+      <source>there was no time to follow every object exactly; give more budget</source>
+      <translation>die Zeit reichte nicht, jedem Objekt genau zu folgen; ein größeres Budget hilft</translation>
+    </message>
+    <message>
+      <source>the motion of {name} could not be followed; it goes where its pixels are</source>
+      <translation>der Bewegung von {name} war nicht zu folgen; es steht, wo seine Pixel sind</translation>
+    </message>
+    <message>
+      <source>object {name} is never visible and is left out</source>
+      <translation>das Objekt {name} ist nie zu sehen und wird weggelassen</translation>
+    </message>
+    <message>
+      <source>the prior {name} is expected to need {megabytes:.0f} MiB</source>
+      <translation>der Prior {name} braucht voraussichtlich {megabytes:.0f} MiB</translation>
+    </message>
+    <message>
+      <source>the prior is off for {name}: {reason}</source>
+      <translation>der Prior ist für {name} abgeschaltet: {reason}</translation>
+    </message>
+    <message>
+      <source>the prior is off for {name} in frames {frames}</source>
+      <translation>der Prior ist für {name} abgeschaltet in den Bildern {frames}</translation>
+    </message>
+    <message>
+      <source>{percent:.2g} % of what the prior said of {name} was no usable number and is left out</source>
+      <translation>{percent:.2g} % dessen, was der Prior über {name} sagte, waren keine brauchbaren Zahlen und werden weggelassen</translation>
+    </message>
+    <message>
+      <source>{count} Gaussians of {name} were not finite and were made transparent</source>
+      <translation>{count} Gaußglocken von {name} waren nicht endlich und wurden durchsichtig gemacht</translation>
+    </message>
+    <message>
+      <source>a step was left out: {culprits} not finite</source>
+      <translation>ein Schritt wurde ausgelassen: {culprits} nicht endlich</translation>
+    </message>
+    <message>
+      <source>{count} bad steps in a row: back to the last good state, learning rates x {rate:g}</source>
+      <translation>{count} schlechte Schritte nacheinander: zurück zum letzten guten Stand, Lernraten x {rate:g}</translation>
+    </message>
+    <message>
+      <source>{count} gradients of {what} of {name} were not finite and were left out</source>
+      <translation>{count} Gradienten von {what} von {name} waren nicht endlich und wurden ausgelassen</translation>
+    </message>
+    <message>
+      <source>{count} {what} of {name} were limited to +-{limit:g}</source>
+      <translation>{count} {what} von {name} wurden auf +-{limit:g} begrenzt</translation>
+    </message>
+    <message>
+      <source>{count} quaternions of {name} were made unit ones</source>
+      <translation>{count} Quaternionen von {name} wurden auf Länge eins gebracht</translation>
     </message>
   </context>
 </TS>
