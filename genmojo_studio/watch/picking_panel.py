@@ -119,8 +119,10 @@ class PickingPanel(QWidget):
         self.list.blockSignals(True)
         for i in reversed(range(self.list.topLevelItemCount())):
             item = self.list.topLevelItem(i)
-            rows = np.flatnonzero(snapshot.uid == np.uint64(int(item.data(0, _UID)))) if item is not None else ()
-            if item is not None and len(rows):
+            if item is None:
+                continue
+            rows = np.flatnonzero(snapshot.uid == np.uint64(int(item.data(0, _UID))))
+            if len(rows):
                 item.setData(0, _ROW, int(rows[0]))
             else:
                 self.list.takeTopLevelItem(i)
