@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 REFERENCE_STEP_MS = 62.0  # CPU ms of a step of optimise/calibrate.py on the reference machine
 MOTION_SHARE = 0.4  # of the budget: most that the search for motion may take (optimise/run.py)
 SETTLE_SHARE = 0.1  # of the budget: most that fitting a still background may take (optimise/still.py)
-LIFT_SHARE = 0.15  # of a paced run's time after the motion (optimise/schedule.py)
+LIFT_SHARE = 0.08  # of a paced run's time after the motion (optimise/schedule.py)
 LIFT_WORTH = 0.3  # of a joint step: what a step of the static lift does for the result
 START_SHARE = 0.8  # of the allowed Gaussians that there are on average over a run
 STEP_NAMES = ("views x pixels x channels, millions", "views x Gaussians, thousands", "views x bending Gaussians, "

@@ -16,7 +16,7 @@ from genmojo_core.scene.scene4d import Scene4D
 FINAL_RATE = 0.1  # of the first learning rate, reached at the end
 LOOKS = 50  # at every frame, after which learning rates fall
 OUTWARD_SHARE = 0.3  # of the joint stage, by which all frames take part
-LIFT_SHARE = 0.15  # of a paced run's time after the motion
+LIFT_SHARE = 0.08  # of a paced run's time after the motion
 
 
 @dataclass(frozen=True)

@@ -147,6 +147,11 @@ def test_more_time_never_means_less_and_the_user_wins():
     assert all(
         c.paced and c.budget_seconds == s for c, s in zip(chosen, (10, 30, 60, 120, 300, 900, 3600), strict=True)
     )
+    crowd = replace(clip, object_ids=tuple(range(1, 6)), object_names=("a", "b", "c", "d", "e"))
+    one = replace(clip, object_ids=(1,), object_names=("a",))
+    shared = [for_budget(s, crowd).gaussians_per_object for s in (10, 30, 60, 120, 300, 900)]
+    alone = [for_budget(s, one).gaussians_per_object for s in (10, 30, 60, 120, 300, 900)]
+    assert shared == sorted(shared) and shared[2] * 5 <= 2 * alone[2] + 5 and shared[-1] == alone[-1]
     assert for_budget(60, clip, speed=10.0, short_side=96).short_side == 96
     assert for_budget(5, clip).short_side <= min(clip.source_size)
 
