@@ -79,7 +79,7 @@ def make_window(application: QApplication, settings: Settings) -> MainWindow:
             table.set_keys(action_id, keys)
     collector = application.findChild(Collector)
     if collector is not None:
-        state.subscribe(collector.sweep, "clip_path")
+        state.subscribe(collector.sweep_soon, "clip_path")
     return MainWindow(state, table, settings)
 
 

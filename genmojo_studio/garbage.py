@@ -45,6 +45,10 @@ class Collector(QObject):
         if due[-1] == _OLDEST:
             gc.freeze()
 
+    def sweep_soon(self) -> None:
+        """As `sweep`, in a turn of its own."""
+        QTimer.singleShot(0, self, self.sweep)
+
     def sweep(self) -> None:
         """Everything, however old; for moments when the window changes as a whole."""
         gc.unfreeze()

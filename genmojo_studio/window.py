@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, Protocol, cast
 
@@ -16,6 +16,7 @@ from genmojo_core.errors import GenmojoError
 from genmojo_studio import notify, opening, theme
 from genmojo_studio.about import About
 from genmojo_studio.actions import ActionTable
+from genmojo_studio.assembly import Assembly
 from genmojo_studio.background import Tasks
 from genmojo_studio.header import Header
 from genmojo_studio.menus import Menus
@@ -32,6 +33,8 @@ from genmojo_studio.worker import runs
 
 DEMO_CLIP = "crossing-shapes"
 _PRELOAD_MS = 100  # after the window came up
+_TURN_MS = 20  # what others do because a clip was opened has its turn
+_POLISHED = 40  # widgets of a new workspace that are dressed in one turn
 _MODULES = {  # they pull in OpenGL, plots and readers that the start page does not need
     "annotate": "genmojo_studio.annotate.workspace",
     "watch": "genmojo_studio.watch.workspace",
@@ -39,9 +42,10 @@ _MODULES = {  # they pull in OpenGL, plots and readers that the start page does 
 
 
 class Workspace(Protocol):
-    """What the window asks of a workspace, besides being a QMainWindow."""
+    """What the window asks of a workspace, besides being a QMainWindow. `parts` makes what is in it."""
 
     panels: Panels
+    parts: Iterator[None]
 
     def open_clip(self, path: Path) -> None:
         """Shows a clip (or a project); the shared state already holds a clip that was read."""
@@ -73,6 +77,8 @@ class MainWindow(QMainWindow):
         self.workspaces: dict[str, Workspace] = {}
         self._shown_clips: dict[str, Path | None] = {}
         self._loaded: set[str] = set()
+        self._visited: set[str] = set()
+        self._assemblies: dict[str, Assembly] = {}
         self.workspace = ""
         self.setWindowTitle("GenMOJO Studio")
         self.setAcceptDrops(True)
@@ -88,7 +94,7 @@ class MainWindow(QMainWindow):
         self.menus = Menus(self, table)
         self.show_workspace("")
         self._preload = QTimer(self, interval=_PRELOAD_MS, singleShot=True)
-        self._preload.timeout.connect(lambda: self._load("watch", _ask_for_opengl))
+        self._preload.timeout.connect(lambda: self._load("watch", self._prepare))
         geometry = settings.layout("window")
         if geometry is not None:
             self.restoreGeometry(geometry)
@@ -96,16 +102,11 @@ class MainWindow(QMainWindow):
     def show_workspace(self, name: str) -> None:
         """Brings "annotate", "watch" or the start page ("") to the front."""
         if name and name not in self.workspaces:
-            made = _make_workspace(name, self.state, self.table)
-            self.workspaces[name] = made
-            self.stack.addWidget(cast(QWidget, made))
-            made.restore_layout()
-            said = getattr(made, "said", None)
-            if said is not None:
-                said.connect(lambda text: self.header.say(text, busy=bool(text)))
+            self._assembly(name).finish()
         self.workspace = name
         if not name:
             self.welcome.show_recent(self.settings.recent(), [Path(run.run_dir) for run in runs.live_runs()])
+        self._visited.add(name)
         self.stack.setCurrentWidget(cast(QWidget, self.workspaces[name]) if name else self.welcome)
         self.header.show_workspace(name)
         self.header.show_panels(None if not name else not self._panels_hidden())
@@ -123,11 +124,19 @@ class MainWindow(QMainWindow):
             self.show_workspace(name)
             then()
 
-        if not name or name in self.workspaces or name in self._loaded:
+        if not name or name in self.workspaces:
             shown()
+        elif name in self._loaded:
+            self._assembly(name).start(shown)
         else:
             self.header.say(tr("Loading …"), busy=True)
-            self._load(name, shown)
+            self._load(name, lambda: self._assembly(name).start(shown))
+
+    def _prepare(self) -> None:
+        """Once Watch is loaded: it is made while nobody waits for it, part by part."""
+        _ask_for_opengl()
+        if not self.workspace:
+            self._assembly("watch").start()
 
     def _load(self, name: str, then: Callable[[], object]) -> None:
         """Imports what a workspace is made of on a thread, which lets the window answer meanwhile."""
@@ -137,6 +146,32 @@ class MainWindow(QMainWindow):
             then()
 
         self.tasks.run(lambda: importlib.import_module(_MODULES[name]), loaded, self._reading_failed)
+
+    def _assembly(self, name: str) -> Assembly:
+        """What makes a workspace; it may be at it already."""
+        if name not in self._assemblies:
+            self._assemblies[name] = Assembly(self._parts(name), self)
+        return self._assemblies[name]
+
+    def _parts(self, name: str) -> Iterator[None]:
+        """A workspace, part by part, and its place in the window."""
+        made = _make_workspace(name, self.state, self.table)
+        yield from made.parts
+        widget = cast(QWidget, made)
+        widget.resize(self.stack.size())
+        self.stack.addWidget(widget)
+        yield
+        made.restore_layout()
+        yield
+        inside = widget.findChildren(QWidget)
+        for first in range(0, len(inside), _POLISHED):
+            for one in inside[first : first + _POLISHED]:
+                one.ensurePolished()
+            yield
+        said = getattr(made, "said", None)
+        if said is not None:
+            said.connect(lambda text: self.header.say(text, busy=bool(text)))
+        self.workspaces[name] = made
 
     def open_path(self, path: Path) -> None:
         """Opens whatever lies there; faults are told in a dialog."""
@@ -180,11 +215,14 @@ class MainWindow(QMainWindow):
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Asks the workspaces; one that says no keeps everything as it is."""
-        for workspace in self.workspaces.values():
-            workspace.save_layout()
+        for name, workspace in self.workspaces.items():
+            if name in self._visited:
+                workspace.save_layout()
             if not workspace.close():
                 event.ignore()
                 return
+        for assembly in self._assemblies.values():
+            assembly.stop()
         self.settings.put_layout("window", self.saveGeometry())
         self._preload.stop()
         self.tasks.close()
@@ -232,9 +270,13 @@ class MainWindow(QMainWindow):
 
     def _clip_read(self, found: tuple[Clip, Path | None], path: Path, workspace: str) -> None:
         clip, masks = found
-        self.header.say("")
-        self.state.open_clip(clip, path, masks)
-        self.show_workspace(workspace)
+
+        def made() -> None:
+            self.header.say("")
+            self.state.open_clip(clip, path, masks)
+            QTimer.singleShot(_TURN_MS, self, lambda: self.show_workspace(workspace))
+
+        self._assembly(workspace).start(made)
 
     def _reading_failed(self, error: BaseException) -> None:
         self.header.say("")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import getpass
+from collections.abc import Iterator
 from pathlib import Path
 
 from PySide6.QtCore import QPoint, Qt, QTimer
@@ -73,6 +74,7 @@ class AnnotateWorkspace(QMainWindow):
         super().__init__(parent)
         self.setWindowFlags(Qt.WindowType.Widget)
         self.state, self.table = state, actions
+        self.parts: Iterator[None] = iter(())  # all of it is there; a clip brings the rest
         self.settings = Settings()
         self.session: Session | None = None
         self.hands: Hands | None = None

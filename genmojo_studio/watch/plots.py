@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pyqtgraph as pg
+from PySide6.QtCore import QTimer
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
@@ -45,10 +46,16 @@ class LatePlot(QWidget):
         """Somebody looks."""
         super().showEvent(event)
         if self.plot is None:
+            QTimer.singleShot(0, self, self._come)
+        self._dress()
+
+    def _come(self) -> None:
+        """The plot is made, and filled in the turn after that; not for a panel that only showed up for a moment."""
+        if self.plot is None and self.isVisible():
             self.plot = self._make()
             self._layout.addWidget(self.plot)
-            self.draw()
-        self._dress()
+            self._dress()
+            QTimer.singleShot(0, self, self.draw)
 
     def _dress(self) -> None:
         """In the theme's colours, once somebody looks."""

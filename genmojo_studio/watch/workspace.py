@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QByteArray, Qt, QTimer, Signal
@@ -45,7 +47,10 @@ _LAYOUT_VERSION = 1
 
 
 class WatchWorkspace(QMainWindow):
-    """Optimise, look at, question, compare and take away a scene. `said(text)`: what it is doing, "" for nothing."""
+    """Optimise, look at, question, compare and take away a scene. `said(text)`: what it is doing, "" for nothing.
+
+    `parts` makes what is in it, one part each time; whoever makes a workspace goes through it to the end.
+    """
 
     said = Signal(str)
 
@@ -55,25 +60,39 @@ class WatchWorkspace(QMainWindow):
         self.table = actions
         self.undo = UndoStack()
         self.tracks_shown = True
+        self._sizes_wait = False
+        self.parts = self._make()
+
+    def _make(self) -> Iterator[None]:
+        """Everything in it, part by part; it is of use when all are there."""
+        state, actions = self.state, self.table
         self.appearance = Appearance(self.undo, self)
         self.tasks = Tasks()
         self.session = Session(state, self.tasks, self)
         self.control = RunControl(self)
         self.player = Player(state, self.isVisible, self)
+        yield
         self.view = LiveView(state, self.appearance, self.undo)
         self.draw_cost = DrawCost(self.view, self.control.client, self)
         self.control.draw_share = lambda: self.draw_cost.share
+        yield
         self.compare = ComparePanel(state)
         self.center = Center(state, actions, self.session, self.view, self.compare.pane)
+        yield
         self.view_panel = ViewPanel(state, actions, self.appearance)
         self.objects_panel = ObjectsPanel(state, actions, self.appearance)
+        yield
         self.setup = RunSetup(state)
+        yield
         self.status = RunStatus(state, actions, self.control)
+        yield
         self.curves = Curves(state)
+        yield
         self.picking = PickingPanel(state)
         self.tracks = TracksPanel(state)
         self.take_away = TakeAway(state, self.session, self.view, self.control, self)
-        self._arrange()
+        yield
+        yield from self._arrange()
         self._connect()
         self._dress()
         commands.bind(self)
@@ -116,7 +135,8 @@ class WatchWorkspace(QMainWindow):
             self.restoreState(stored, _LAYOUT_VERSION)
         else:
             self.restoreState(self._delivered, _LAYOUT_VERSION)
-            QTimer.singleShot(0, self._deliver_sizes)  # sizes hold only once the window has its own
+            self._sizes_wait = True
+            self._deliver_later()
         self.panels.arranged()
 
     def closeEvent(self, event: QCloseEvent) -> None:
@@ -139,13 +159,14 @@ class WatchWorkspace(QMainWindow):
         """Somebody looks again."""
         super().showEvent(event)
         self.control.show_view(True)
+        self._deliver_later()
 
     def hideEvent(self, event: QHideEvent) -> None:
         """Minimised, or the other workspace is on show."""
         super().hideEvent(event)
         self.control.show_view(False)
 
-    def _arrange(self) -> None:
+    def _arrange(self) -> Iterator[None]:
         middle = QWidget()
         layout = QVBoxLayout(middle)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -164,23 +185,34 @@ class WatchWorkspace(QMainWindow):
             Qt.DockWidgetArea.RightDockWidgetArea,
             Qt.DockWidgetArea.BottomDockWidgetArea,
         )
+        yield
         self.setCorner(Qt.Corner.BottomRightCorner, right)
         self.setCorner(Qt.Corner.BottomLeftCorner, left)
-        made = {
-            "view": (scrolled(self.view_panel), left),
-            "objects": (self.objects_panel, left),
-            "run": (self.run_tabs, right),
-            "curves": (scrolled(self.curves, True), bottom),
-            "picking": (scrolled(self.picking, True), bottom),
-            "tracks": (scrolled(self.tracks, True), bottom),
-            "compare": (scrolled(self.compare, True), bottom),
+        made: dict[str, tuple[Callable[[], QWidget], Qt.DockWidgetArea]] = {
+            "view": (partial(scrolled, self.view_panel), left),
+            "objects": (lambda: self.objects_panel, left),
+            "run": (lambda: self.run_tabs, right),
+            "curves": (partial(scrolled, self.curves, True), bottom),
+            "picking": (partial(scrolled, self.picking, True), bottom),
+            "tracks": (partial(scrolled, self.tracks, True), bottom),
+            "compare": (partial(scrolled, self.compare, True), bottom),
         }
-        self.docks = {name: self._dock(name, tr(title), *made[name]) for name, title in PANELS}
+        self.docks = {}
+        for name, title in PANELS:
+            widget, area = made[name]
+            self.docks[name] = self._dock(name, tr(title), widget(), area)
+            yield
         for name in ("picking", "tracks", "compare"):
             self.tabifyDockWidget(self.docks["curves"], self.docks[name])
         self.docks["curves"].raise_()
         self._delivered: QByteArray = self.saveState(_LAYOUT_VERSION)
         self.panels = Panels(self, self.docks, "watch", _LAYOUT_VERSION)
+
+    def _deliver_later(self) -> None:
+        """Sizes hold only once the window has its own."""
+        if self._sizes_wait and self.isVisible():
+            self._sizes_wait = False
+            QTimer.singleShot(0, self, self._deliver_sizes)
 
     def _deliver_sizes(self) -> None:
         """A third of the height for the panels below, a fifth of the width for each side."""

@@ -67,6 +67,8 @@ class Drive:
         watch = self.window.workspaces.get("watch")
         if watch is not None and watch.view.snapshot is not None and watch.view.isVisible():
             self.drawn(watch)
+        self.wait(self.window.updatesEnabled, 60, "the theme")
+        self.rest(0.3)
         self.shots += 1
         dog = self.window.watchdog
         stalls, longest = list(dog.stalls), dog.longest
