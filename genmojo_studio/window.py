@@ -33,6 +33,7 @@ from genmojo_studio.worker import runs
 
 DEMO_CLIP = "crossing-shapes"
 _PRELOAD_MS = 100  # after the window came up
+_OPENING = "opening"  # the assembly of the clip that is being shown
 _TURN_MS = 20  # what others do because a clip was opened has its turn
 _POLISHED = 40  # widgets of a new workspace that are dressed in one turn
 _MODULES = {  # they pull in OpenGL, plots and readers that the start page does not need
@@ -47,8 +48,8 @@ class Workspace(Protocol):
     panels: Panels
     parts: Iterator[None]
 
-    def open_clip(self, path: Path) -> None:
-        """Shows a clip (or a project); the shared state already holds a clip that was read."""
+    def opening(self, path: Path) -> Iterator[None]:
+        """Shows a clip (or a project), part by part; the shared state already holds a clip that was read."""
         ...
 
     def close(self) -> bool:
@@ -100,7 +101,13 @@ class MainWindow(QMainWindow):
             self.restoreGeometry(geometry)
 
     def show_workspace(self, name: str) -> None:
-        """Brings "annotate", "watch" or the start page ("") to the front."""
+        """Brings "annotate", "watch" or the start page ("") to the front, with the clip that is open."""
+        self._bring(name)
+        for _ in self._opening(name):
+            continue
+
+    def _bring(self, name: str) -> None:
+        """To the front, whatever it shows."""
         if name and name not in self.workspaces:
             self._assembly(name).finish()
         self.workspace = name
@@ -111,18 +118,29 @@ class MainWindow(QMainWindow):
         self.header.show_workspace(name)
         self.header.show_panels(None if not name else not self._panels_hidden())
         self.menus.set_workspace(name)
+
+    def _opening(self, name: str) -> Iterator[None]:
+        """Shows the clip that is open in a workspace, unless it does."""
         path = self.state.clip_path
         if name and path is not None and self._shown_clips.get(name) != path:
             self._shown_clips[name] = path
-            self.workspaces[name].open_clip(path)
+            yield from self.workspaces[name].opening(path)
+
+    def _open_by_parts(self, parts: Iterator[None], then: Callable[[], object] | None = None) -> None:
+        """Shows a clip, a part in each turn, once the one before is there."""
+        if _OPENING in self._assemblies:
+            self._assemblies[_OPENING].finish()
+        self._assemblies[_OPENING] = Assembly(parts, self)
+        self._assemblies[_OPENING].start(then)
 
     def go_to(self, name: str, then: Callable[[], object] = lambda: None) -> None:
-        """As `show_workspace`, but loads on a thread what is not loaded yet; does something in it then."""
+        """As `show_workspace`, but loads on a thread what is not loaded, and lets the window answer in between; does
+        something in it then."""
 
         def shown() -> None:
             self.header.say("")
-            self.show_workspace(name)
-            then()
+            self._bring(name)
+            self._open_by_parts(self._opening(name), then)
 
         if not name or name in self.workspaces:
             shown()
@@ -191,7 +209,7 @@ class MainWindow(QMainWindow):
 
     def _open_project(self, path: Path) -> None:
         self._shown_clips["annotate"] = path
-        self.workspaces["annotate"].open_clip(path)
+        self._open_by_parts(self.workspaces["annotate"].opening(path))
 
     def read_clip(self, path: Path, workspace: str) -> None:
         """Reads a clip on a thread and shows it in a workspace."""
@@ -274,7 +292,7 @@ class MainWindow(QMainWindow):
         def made() -> None:
             self.header.say("")
             self.state.open_clip(clip, path, masks)
-            QTimer.singleShot(_TURN_MS, self, lambda: self.show_workspace(workspace))
+            QTimer.singleShot(_TURN_MS, self, lambda: self.go_to(workspace))
 
         self._assembly(workspace).start(made)
 

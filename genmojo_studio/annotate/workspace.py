@@ -77,6 +77,7 @@ class AnnotateWorkspace(QMainWindow):
         self.parts: Iterator[None] = iter(())  # all of it is there; a clip brings the rest
         self.settings = Settings()
         self.session: Session | None = None
+        self._opening: Iterator[None] = iter(())
         self.hands: Hands | None = None
         self.tour: Tour | None = None
         self._tour_waits = False
@@ -111,33 +112,51 @@ class AnnotateWorkspace(QMainWindow):
 
     # ---- opening and closing
 
-    def open_clip(self, path: str | Path) -> None:
-        """Open a clip or a project file; the one open now is closed, with everything stored. Faults are told."""
-        path = Path(path)
+    def opening(self, path: Path) -> Iterator[None]:
+        """Open a clip or a project file, part by part; the one open now is closed, with everything stored.
+
+        Faults are told.
+        """
         try:
             session = open_session(self.state, path, self.settings.text("person") or _person())
         except GenmojoError as error:
             notify.tell(error, self)
             return
         self.close_clip()
-        self.open_with(session)
+        self._opening = self._put_on_show(session)
+        yield
+        yield from self._opening
 
     def open_with(self, session: Session) -> None:
         """Put a session on show."""
-        self.session = session
+        for _ in self._put_on_show(session):
+            continue
+
+    def _put_on_show(self, session: Session) -> Iterator[None]:
+        """Everything that shows a session, part by part; it is of use when all are there."""
         session.setParent(self)
         self.canvas, self.strip = Canvas(), Strip(session)
         self.screen_link = Screen(session, self.canvas, self.strip)
         self.work = Work(session, self)
+        yield
         self.buttons, self.play = ButtonPanel(self.table), PlayPanel(session, self.table)
+        yield
         self.pages = QStackedWidget()
         self.objects, self.points = ObjectsPage(session), PointsPage(session)
+        yield
         self.refine, self.review = RefinePage(session), ReviewPage(session)
         self._by_name: dict[str, QWidget] = {
             "objects": self.objects, "points": self.points, "refine": self.refine, "review": self.review,
         }  # fmt: skip
         for page in self._by_name.values():
             self.pages.addWidget(page)
+        yield
+        self._arrange()
+        yield
+        self._take(session)
+
+    def _arrange(self) -> None:
+        """The parts of a session in their places."""
         middle = QWidget()
         column = QVBoxLayout(middle)
         column.setContentsMargins(0, 0, 0, 0)
@@ -153,6 +172,10 @@ class AnnotateWorkspace(QMainWindow):
         scroll.setWidget(self.pages)
         for name, widget in (("buttons", self.buttons), ("information", scroll), ("play", self.play)):
             self.docks[name].setWidget(widget)
+
+    def _take(self, session: Session) -> None:
+        """All parts are there: the session can be worked on."""
+        self.session = session
         self.bar.setEnabled(True)
         self.bar.stride.setValue(session.stride)
         for changed in (session.edited, session.selected):
@@ -170,7 +193,9 @@ class AnnotateWorkspace(QMainWindow):
             QTimer.singleShot(0, self.start_tour)
 
     def close_clip(self) -> None:
-        """Store and let go of the clip that is open."""
+        """Store and let go of the clip that is open; one that is half open is opened first."""
+        for _ in self._opening:
+            continue
         session, self.session = self.session, None
         if session is None:
             return

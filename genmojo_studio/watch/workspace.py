@@ -97,8 +97,12 @@ class WatchWorkspace(QMainWindow):
         self._dress()
         commands.bind(self)
 
-    def open_clip(self, path: Path) -> None:
+    def opening(self, path: Path) -> Iterator[None]:
         """Shows the clip of the shared state; a scene of another clip goes away."""
+        self._open_clip(path)
+        yield
+
+    def _open_clip(self, path: Path) -> None:
         scene = self.session.scene
         if scene is not None and str(scene.config.get("input", "")) == str(path):
             return

@@ -23,7 +23,8 @@ def test_an_edited_mask_reaches_the_plan_and_the_run(window, qtbot, told):
     assert window.table.trigger("view.edit_mask")
     qtbot.waitUntil(lambda: window.workspace == "annotate", timeout=60_000)  # it is loaded first
     annotate = window.workspaces["annotate"]
-    qtbot.waitUntil(lambda: annotate.session.clip is not None and annotate.session.active[0] == edited, timeout=60_000)
+    qtbot.waitUntil(lambda: annotate.session is not None and annotate.session.clip is not None, timeout=60_000)
+    qtbot.waitUntil(lambda: annotate.session.active[0] == edited, timeout=60_000)
     qtbot.waitUntil(lambda: annotate.objects.replaced() == edited, timeout=60_000)
     assert annotate.step == 0
     annotate.work.add_box(*_BOX)

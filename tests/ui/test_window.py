@@ -260,3 +260,30 @@ def test_a_run_that_goes_on_is_asked_about_when_the_window_closes(window, monkey
     assert window.isVisible() and answers == [True]
     window.close()
     assert not window.isVisible()
+
+
+def test_a_clip_that_is_half_open_in_the_annotator_opens_whole_or_not_at_all(window, qtbot, tmp_path):
+    """Another workspace, another clip or the end comes between two parts: nothing is lost or left over."""
+    from genmojo_core.clip import synthetic, synthetic_files
+
+    clip, truth = synthetic.generate("crossing-shapes")
+    for name in ("one", "two"):
+        synthetic_files.write(clip, truth, tmp_path / name)
+    window.read_clip(tmp_path / "one", "annotate")
+    qtbot.waitUntil(lambda: window.state.clip is not None, timeout=60_000)
+    annotate = window.workspaces["annotate"]
+    parts = annotate.opening(tmp_path / "two")
+    next(parts), next(parts)
+    assert annotate.session is None  # not of use yet
+    window.show_workspace("watch")
+    window.show_workspace("annotate")
+    for _ in parts:
+        continue
+    assert annotate.session is not None and annotate.session.project.info.path.endswith("two")
+    parts = annotate.opening(tmp_path / "one")
+    next(parts), next(parts)
+    annotate.close_clip()
+    assert annotate.session is None
+    assert list(parts) == []
+    list(annotate.opening(tmp_path / "one"))  # nobody holds its project
+    assert not annotate.session.project.read_only and annotate.objects is not None
