@@ -16,13 +16,13 @@ from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 from genmojo_core.cli import arguments, models
+from genmojo_core.cli.expectation import expectation, foretell, send_pilot
 from genmojo_core.cli.output import progress, say
 from genmojo_core.config import RunConfig, preset
 from genmojo_core.errors import GenmojoError
 
 if TYPE_CHECKING:
     from genmojo_core.clip.clip import Clip
-    from genmojo_core.effects.forecast import Forecast
     from genmojo_core.effects.plan import EffectPlan
     from genmojo_core.events import Event
     from genmojo_core.optimise.run import Run
@@ -38,6 +38,8 @@ def add_commands(commands: Any) -> None:
     arguments.add_clip_options(effects)
     arguments.add_config_options(effects)
     models.add_model_options(effects)
+    effects.add_argument("--pilot", action="store_true", help="run a few small frames of the clip first (some seconds, "
+                         "once), so that dB are foretold better, here and by later commands")  # fmt: skip
     effects.set_defaults(run=run_effects)
     optimize = commands.add_parser("optimize", help="clip to 4D scene")
     arguments.add_clip_options(optimize)
@@ -46,6 +48,8 @@ def add_commands(commands: Any) -> None:
     optimize.add_argument("-o", "--output", required=True, metavar="scene.h5")
     optimize.add_argument("--run-dir", metavar="DIR", help="where checkpoints go")
     optimize.add_argument("--resume", action="store_true", help="go on from the run folder's checkpoint")
+    optimize.add_argument("--no-pilot", action="store_true", help="foretell dB without the pilot that a run of more "
+                          "than a minute sends ahead where it takes at most a tenth of the run's time")  # fmt: skip
     optimize.set_defaults(run=run_optimize)
 
 
@@ -55,11 +59,16 @@ def run_effects(args: argparse.Namespace) -> dict[str, Any]:
 
     config = configured(args)
     clip, plan = _prepare(args, config)
+    if args.pilot:
+        send_pilot(clip, plan, args.clip, args.frames)
     expected = expectation(clip, plan, config)
+    if expected is not None:
+        say(expected.sentence())
     known = known_costs()
     rows = [{**row, "known": known.get(row["name"])} for row in plan.to_json()]
     return {"clip": clip.name, "frames": len(clip), "effects": rows, "guesses": list(clip.guesses),
-            "preset": config.preset, "forecast": None if expected is None else expected.to_json()}  # fmt: skip
+            "preset": config.preset, "forecast": None if expected is None else expected.forecast.to_json(),
+            "pilot_seconds": None if expected is None else expected.pilot_seconds}  # fmt: skip
 
 
 def run_optimize(args: argparse.Namespace) -> dict[str, Any]:
@@ -77,7 +86,8 @@ def run_optimize(args: argparse.Namespace) -> dict[str, Any]:
     finally:
         if compiling is not None:
             compiling.join()
-    job = Job(args.output, args.clip, start, args.frames, args.run_dir, args.resume)
+    pilot = not (args.no_pilot or args.resume)
+    job = Job(args.output, args.clip, start, args.frames, args.run_dir, args.resume, pilot)
     return optimize_clip(clip, plan, config, job)
 
 
@@ -115,6 +125,7 @@ class Job:
         output: scene file to write. source: the clip's path and frames: its positions, read again for measuring.
         start: time.monotonic() when the command began.
         run_dir: where checkpoints go, or None. resume: go on from the one there.
+        pilot: send a pilot ahead where it pays (cli/expectation.py).
     """
 
     output: str
@@ -123,6 +134,7 @@ class Job:
     frames: tuple[int, int | None] | None = None
     run_dir: str | None = None
     resume: bool = False
+    pilot: bool = False
 
 
 def optimize_clip(clip: Clip, plan: EffectPlan, config: RunConfig, job: Job) -> dict[str, Any]:
@@ -134,7 +146,7 @@ def optimize_clip(clip: Clip, plan: EffectPlan, config: RunConfig, job: Job) -> 
     from genmojo_core.optimise.run import Run
     from genmojo_core.store import scene_hdf5
 
-    expected = expectation(clip, plan, config)
+    expected = foretell(clip, plan, config, job.source, job.frames, job.pilot)
     curve_path = Path(job.output).with_suffix(".curve.jsonl")
     run = Run(clip, plan, config, run_dir=job.run_dir, resume=job.resume, curve_path=curve_path)
     scorer = None if find_truth(job.source) is None else Scorer(job.source, job.frames)
@@ -171,25 +183,6 @@ def optimize_clip(clip: Clip, plan: EffectPlan, config: RunConfig, job: Job) -> 
     metrics = scene.metrics | {key: float(value) for key, value in figures.items() if math.isfinite(value)}
     scene_hdf5.write(replace(scene, config={**scene.config, "forecast": came}, metrics=metrics), job.output)
     return result | figures | {"forecast": came}
-
-
-def expectation(clip: Clip, plan: EffectPlan, config: RunConfig) -> Forecast | None:
-    """Seconds and dB to expect on this machine, said on stderr; the first call on a machine measures it for seconds.
-
-    None for a run on a graphics card, of which no model was fitted.
-    """
-    import torch
-
-    from genmojo_core.effects import forecast, machine
-    from genmojo_core.optimise import calibrate
-
-    if config.device.startswith("cuda") or (config.device == "auto" and torch.cuda.is_available()):
-        return None
-    if machine.load() is None:
-        say("Measuring how fast this machine is (once) ...")
-    expected = forecast.forecast(clip, plan, config, calibrate.calibrated())
-    say(forecast.said(expected))
-    return expected
 
 
 def peak_mb() -> float:
@@ -264,14 +257,10 @@ class _Watched:
 
 def _measured(scene: BakedScene, clip: Clip, job: Job) -> dict[str, float]:
     """PSNR at 256 on the short side, against the clip read at that size."""
-    from genmojo_core.clip import folders
-    from genmojo_core.measure.reconstruction import SHORT_SIDE, reconstruction
+    from genmojo_core.measure.reconstruction import as_measured, reconstruction
 
-    if min(clip.size) != SHORT_SIDE and Path(job.source).exists():
-        again = folders.read(job.source, frames=job.frames, short_side=SHORT_SIDE, ignore=folders.CHANNELS)
-        clip = again if again.masks is not None else clip
     with progress("measuring") as tell:
-        return reconstruction(scene, clip, tell)
+        return reconstruction(scene, as_measured(clip, job.source, job.frames), tell)
 
 
 @contextmanager

@@ -30,6 +30,7 @@ class Difficulty:
         change: dB between an object and itself as it stands in the middle of the clip, moved by its mask's centre.
         area: the objects' share of the frame, 0..1.
         moved: pixels (of a frame with 256 on its short side) that an object's pixels move per frame, usual value.
+        reached, coarse, fine: as in a Pilot of the clip (effects/pilot.py); None where none has run.
     """
 
     texture: float
@@ -37,8 +38,11 @@ class Difficulty:
     change: float
     area: float
     moved: float
+    reached: float | None = None
+    coarse: float | None = None
+    fine: float | None = None
 
-    def to_json(self) -> dict[str, float]:
+    def to_json(self) -> dict[str, float | None]:
         """Plain data."""
         return asdict(self)
 

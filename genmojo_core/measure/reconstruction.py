@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 
+from genmojo_core.clip import folders
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.measure.images import instance_ious, psnr, ssim
@@ -48,6 +50,18 @@ def reconstruction(scene: BakedScene, clip: Clip, progress: Callable[[float], No
     figures["color_share_db"], figures["light_share_db"] = figures["psnr"] - light, light - none
     figures["instance_iou"] = _mean(list(np.concatenate(ious))) if ious else float("nan")
     return figures
+
+
+def as_measured(clip: Clip, source: str, frames: tuple[int, int | None] | None) -> Clip:
+    """The clip read again at the size to measure at; itself where it has that size, or where only it has masks.
+
+    Args:
+        source, frames: the path and positions that it was read from. Raises GenmojoError as reading it.
+    """
+    if min(clip.size) != SHORT_SIDE and Path(source).exists():
+        again = folders.read(source, frames=frames, short_side=SHORT_SIDE, ignore=folders.CHANNELS)
+        clip = again if again.masks is not None else clip
+    return clip
 
 
 def matching_frames(scene: BakedScene, clip: Clip) -> np.ndarray:  # (T,) positions in the clip

@@ -11,6 +11,7 @@ import numpy as np
 
 from genmojo_core.clip import folders
 from genmojo_core.clip.clip import Clip
+from genmojo_core.clip.cut import cut
 from genmojo_core.config import RunConfig, preset
 from genmojo_core.effects import decide
 from genmojo_core.effects.costs import BYTES_PER_VALUE
@@ -167,25 +168,8 @@ def _reduced(clip: Clip, trial: Trial) -> Clip:
         clip = clip.with_channels(masks=masks, object_ids=clip.object_ids[: trial.objects],
                                   object_names=clip.object_names[: trial.objects])  # fmt: skip
     if trial.frames and trial.frames < len(clip):
-        clip = first_frames(clip, trial.frames)
+        clip = cut(clip, 0, trial.frames)
     return clip
-
-
-def first_frames(clip: Clip, count: int) -> Clip:
-    """The first frames of a clip without tracks of its own, every channel cut alike."""
-    changes: dict[str, Any] = {"tracks": None, "background_frame": min(clip.background_frame, count - 1)}
-    for name in ("masks", "depth", "flow"):
-        channel = getattr(clip, name)
-        if channel is not None:
-            changes[name] = replace(channel, value=channel.value[:count], valid=channel.valid[:count].copy())
-    if clip.flow is not None:
-        changes["flow"].valid[-1] = False
-    if clip.cameras is not None:
-        poses = clip.cameras.value.world_to_camera[:count]
-        changes["cameras"] = replace(clip.cameras, value=replace(clip.cameras.value, world_to_camera=poses),
-                                     valid=clip.cameras.valid[:count])  # fmt: skip
-    return replace(clip.with_channels(**changes), frames=clip.frames[:count], frame_index=clip.frame_index[:count],
-                   seconds=clip.seconds[:count], source_names=clip.source_names[:count])  # fmt: skip
 
 
 def _growth(clip: Clip, plan: EffectPlan, trial: Trial) -> dict[str, Any]:

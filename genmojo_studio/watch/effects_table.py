@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-import json
-import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from PySide6.QtCore import QProcess, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QHeaderView, QTreeWidget, QTreeWidgetItem, QWidget
 
 from genmojo_core.effects.texts import sentence
 from genmojo_studio.translate import tr
+from genmojo_studio.watch.effects_process import EffectsProcess
 
 _AS_WIDE = QHeaderView.ResizeMode.ResizeToContents
 _NAME = Qt.ItemDataRole.UserRole
-_LAST_MS = 10_000  # a process that was killed is gone by then
 
 
 class EffectsTable(QTreeWidget):
-    """Measures in a process of its own (`genmojo effects`), so that the window never waits.
+    """Measures in a process of its own, so that the window never waits.
 
     Signals: `measured` when the table is filled, `failed(sentence)`, `changed` when a box was ticked.
     """
@@ -42,37 +40,19 @@ class EffectsTable(QTreeWidget):
         self.guesses: list[str] = []
         self.frames = 0
         self.expected: dict[str, Any] = {}  # `Forecast.to_json` for the preset that was measured
-        self._process: QProcess | None = None
-        self._closed = False
+        self.pilot_seconds: float | None = None  # that a pilot of the clip would take, where one is worth it
+        self._process = EffectsProcess(self)
+        self._process.answered.connect(self._take)
+        self._process.failed.connect(self.failed)
         self.itemChanged.connect(self._ticked)
 
     def measure(self, clip: Path, preset: str, masks: Path | None = None) -> None:
         """Asks what the clip (with corrected masks) calls for under a preset; an older question is dropped."""
-        self.stop()
-        if self._closed:
-            return
-        process = QProcess(self)
-        process.finished.connect(self._finished)
-        process.setProcessChannelMode(QProcess.ProcessChannelMode.SeparateChannels)
-        self._process = process
-        arguments = ["-m", "genmojo_core.cli.main", "effects", str(clip), "--preset", preset, "--json"]
-        arguments += ["--masks", str(masks)] if masks is not None else []
-        process.start(sys.executable, arguments)
-
-    def stop(self) -> None:
-        """Drops a question that is still being answered; its process goes when it has ended."""
-        if self._process is not None:
-            old, self._process = self._process, None
-            old.finished.disconnect(self._finished)
-            old.finished.connect(old.deleteLater)
-            old.kill()
+        self._process.ask(clip, preset, masks)
 
     def close_process(self) -> None:
         """The window goes: nothing is measured any more."""
-        self._closed = True
-        self.stop()
-        for process in self.findChildren(QProcess):
-            process.waitForFinished(_LAST_MS)
+        self._process.close()
 
     def show_rows(self, rows: Sequence[Mapping[str, Any]]) -> None:
         """Fills the table with rows of `EffectPlan.to_json`."""
@@ -114,21 +94,11 @@ class EffectsTable(QTreeWidget):
         self.blockSignals(False)
         self.changed.emit()
 
-    def _finished(self, code: int) -> None:
-        process = self._process
-        if process is None:
-            return
-        self._process = None
-        output = bytes(process.readAllStandardOutput().data()).decode(errors="replace")
-        faults = bytes(process.readAllStandardError().data()).decode(errors="replace").strip().splitlines()
-        process.deleteLater()
-        if code != 0:
-            self.failed.emit(faults[-1] if faults else tr("The clip could not be measured."))
-            return
-        answer = json.loads(output)
+    def _take(self, answer: dict[str, Any]) -> None:
         self.guesses = [str(sentence) for sentence in answer.get("guesses", [])]
         self.frames = int(answer.get("frames", 0))
         self.expected = dict(answer.get("forecast") or {})
+        self.pilot_seconds = answer.get("pilot_seconds")
         self.show_rows(answer["effects"])
         self.measured.emit()
 

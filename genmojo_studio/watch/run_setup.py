@@ -21,6 +21,7 @@ from genmojo_studio.translate import told, tr
 from genmojo_studio.watch import forecast
 from genmojo_studio.watch.controls import as_sentence, dim, number, set_role
 from genmojo_studio.watch.effects_table import EffectsTable
+from genmojo_studio.watch.pilot_row import PilotRow
 from genmojo_studio.watch.run_log import RunLog
 from genmojo_studio.worker.protocol import RunRequest
 
@@ -56,6 +57,7 @@ class RunSetup(QWidget):
         self.effects.setMinimumHeight(150)
         self.effects.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.said = dim()
+        self.pilot = PilotRow()
         self.start_button = QPushButton(tr("Start"))
         self.start_button.setDefault(True)
         form = QFormLayout()
@@ -68,6 +70,7 @@ class RunSetup(QWidget):
         layout.addLayout(form)
         layout.addWidget(self.effects, 1)
         layout.addWidget(self.said)
+        layout.addWidget(self.pilot)
         layout.addWidget(self.start_button)
         self._connect()
         self._take_preset()
@@ -76,6 +79,8 @@ class RunSetup(QWidget):
         self.preset.activated.connect(self._take_preset)
         self.budget.valueChanged.connect(self._tell)
         self.effects.measured.connect(self._tell)
+        self.effects.measured.connect(self._send_pilot)
+        self.pilot.told.connect(self._piloted)
         self.effects.changed.connect(self._tell)
         self.effects.failed.connect(self._measuring_failed)
         self.start_button.clicked.connect(self.start_wanted)
@@ -93,6 +98,7 @@ class RunSetup(QWidget):
         wanted = (path, preset, edited)
         if self.isVisible() and wanted != self._measured_for:
             self._measured_for = wanted
+            self.pilot.stop()
             self.effects.clear()
             self.effects.rows = []
             self._say(tr("Measuring what the clip calls for …"), "dim")
@@ -113,6 +119,7 @@ class RunSetup(QWidget):
         """What to ask the worker for; None without a clip."""
         if self._state.clip_path is None:
             return None
+        self.pilot.stop()
         self._asked, self._came = self._foretold(self._state.clip), ""
         changes = {"budget_seconds": self._budget(), "device": str(self.device.currentData())}
         return RunRequest(
@@ -123,6 +130,11 @@ class RunSetup(QWidget):
             look_at=self._state.frame,
             masks=str(self._state.masks_path or ""),
         )
+
+    def close_processes(self) -> None:
+        """The window goes: nothing is measured any more."""
+        self.effects.close_process()
+        self.pilot.close_process()
 
     def came(self, log: RunLog) -> None:
         """A run has ended: its effects' costs, and what was expected of it beside what came, if anything was."""
@@ -178,12 +190,27 @@ class RunSetup(QWidget):
         guesses = [as_sentence(told(guess)) for guess in self.effects.guesses]
         self._say("\n".join([text, *came, *edited, *guesses]), "bad" if needed.too_large else "dim")
 
+    def _send_pilot(self) -> None:
+        """Where a pilot is worth its time, it begins as soon as the effects are known."""
+        path, seconds = self._state.clip_path, self.effects.pilot_seconds
+        if path is not None and seconds is not None:
+            self.pilot.start(path, self._preset, self._state.masks_path, seconds)
+
+    def _piloted(self, expected: dict[str, Any]) -> None:
+        self.effects.expected = expected
+        self._tell()
+
     def _expected(self, clip: Clip) -> str:
         """Seconds and dB to expect, in words; "" before they are known."""
         expected = self._foretold(clip)
         if expected is None:
             return ""
-        return tr("Expected: {time} (± {spread}), {psnr:.1f} dB (± {error:.1f}), ").format(
+        said = (
+            tr("Expected: {time} (± {spread}), {psnr:.1f} dB (± {error:.1f}), ")
+            if expected.clip.reached is None
+            else tr("Expected: {time} (± {spread}), {psnr:.1f} dB (± {error:.1f}, from a pilot run), ")
+        )
+        return said.format(
             time=forecast.spoken(expected.seconds),
             spread=forecast.spoken(expected.seconds_error),
             psnr=expected.decibel,

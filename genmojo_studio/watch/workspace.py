@@ -148,7 +148,7 @@ class WatchWorkspace(QMainWindow):
         if not may_leave(self.control, self):
             event.ignore()
             return
-        self.setup.effects.close_process()
+        self.setup.close_processes()
         self.take_away.close()
         self.center.comparison.close()
         self.picking.close_tasks()

@@ -1888,6 +1888,10 @@
       <translation>Median {value:.0f}</translation>
     </message>
     <message>
+      <source>The clip could not be measured.</source>
+      <translation>Der Clip konnte nicht vermessen werden.</translation>
+    </message>
+    <message>
       <source>Effect</source>
       <translation>Effekt</translation>
     </message>
@@ -1942,10 +1946,6 @@
     <message>
       <source>Reappearance</source>
       <translation>Wiederauftauchen</translation>
-    </message>
-    <message>
-      <source>The clip could not be measured.</source>
-      <translation>Der Clip konnte nicht vermessen werden.</translation>
     </message>
     <message>
       <source>Measured {evidence}; on from {bound} ({origin}).</source>
@@ -2216,6 +2216,18 @@
       <translation>Dort ist nichts.</translation>
     </message>
     <message>
+      <source>Skip</source>
+      <translation>Überspringen</translation>
+    </message>
+    <message>
+      <source>Decibels are then foretold from the clip's pixels alone.</source>
+      <translation>Die Dezibel werden dann allein aus den Pixeln des Clips vorhergesagt.</translation>
+    </message>
+    <message>
+      <source>A pilot of a few small frames runs for about {time}, to foretell decibels better.</source>
+      <translation>Ein Probelauf mit wenigen kleinen Bildern dauert etwa {time}; er sagt die Dezibel genauer vorher.</translation>
+    </message>
+    <message>
       <source>Size, Gaussians and pace are chosen so that the budget buys most.</source>
       <translation>Größe, Gaußglocken und Tempo werden so gewählt, dass das Budget am meisten bringt.</translation>
     </message>
@@ -2252,6 +2264,14 @@
       <translation>Gerät</translation>
     </message>
     <message>
+      <source>Expected: {time} (± {spread}), {psnr:.1f} dB (± {error:.1f}), </source>
+      <translation>Erwartet: {time} (± {spread}), {psnr:.1f} dB (± {error:.1f}), </translation>
+    </message>
+    <message>
+      <source>Expected: {time} (± {spread}), {psnr:.1f} dB (± {error:.1f}, from a pilot run), </source>
+      <translation>Erwartet: {time} (± {spread}), {psnr:.1f} dB (± {error:.1f}, aus einem Probelauf), </translation>
+    </message>
+    <message>
       <source>Automatic</source>
       <translation>Automatisch</translation>
     </message>
@@ -2286,10 +2306,6 @@
     <message>
       <source>The run uses the masks that were corrected here.</source>
       <translation>Der Lauf nimmt die hier verbesserten Masken.</translation>
-    </message>
-    <message>
-      <source>Expected: {time} (± {spread}), {psnr:.1f} dB (± {error:.1f}), </source>
-      <translation>Erwartet: {time} (± {spread}), {psnr:.1f} dB (± {error:.1f}), </translation>
     </message>
     <message>
       <source>about {mb:.1f} GB of memory.</source>

@@ -1,10 +1,12 @@
 """The forecast's numbers, fitted on rows of `genmojo tradeoff`, and its errors on clips left out.
 
-    python -m tests.benchmarks.forecast REPORT_FOLDER... [--json FILE]
+    python -m tests.benchmarks.forecast REPORT_FOLDER... [--pilots FILE] [--json FILE]
 
 Prints the `Model` to put into effects/forecast.py. Errors are leave-one-clip-out: every clip is foretold by a model
 fitted on the others. Times are CPU seconds, so a busy machine does no harm; the rows must all come from one machine.
 Rows of older code, whose steps cost something else, tell dB only: set their CPU seconds to null.
+--pilots: {clip: Pilot.to_json}, as `genmojo effects CLIP --pilot --json` tells them in `forecast.clip`; clips that are
+in it are foretold from their pilots.
 """
 
 from __future__ import annotations
@@ -21,17 +23,23 @@ import numpy as np
 from genmojo_core.config import LearningRates, LossWeights, RunConfig
 from genmojo_core.effects.difficulty import Difficulty
 from genmojo_core.effects.forecast import (
+    PILOT_SIDE,
     Model,
     Work,
+    ceiling,
     decibel_features,
     foretold,
     motion_features,
+    pilot_features,
+    remainder,
+    side_of,
     step_features,
     work_of,
 )
 from genmojo_core.optimise.held_out import held_frames
 
 PENALTY = np.array([0.02, 0.02, 0.02])  # of steps, pixels and Gaussians
+PILOT_PENALTY = np.array([0.0, 0.3, 0.3])  # of the terms of PILOT_NAMES
 _HURRIED = 0.38  # of the budget: from here the motion was cut short
 
 
@@ -84,6 +92,33 @@ def decibel_law(a: np.ndarray, b: np.ndarray, clips: list[str]) -> np.ndarray:
     return np.concatenate([[usual - slope * middle, slope], slopes])
 
 
+def pilot_law(rows: list[dict[str, Any]]) -> tuple[float, ...]:
+    """What rows of clips with pilots gain over the pilots' remainders; () without any.
+
+    Every clip counts as one; a row counts by the share of its error that does not come from few pixels.
+    """
+    rows = [row for row in rows if row["difficulty"].get("reached") is not None]
+    if not rows:
+        return ()
+    a, b, weight = [], [], []
+    for row in rows:
+        clip, made, got = Difficulty(**row["difficulty"]), work(row), seen_psnr(row)
+        left = remainder(got, ceiling(clip, side_of(made)))
+        a.append(pilot_features(clip, made, *spent(row)[1:]))
+        b.append(left - remainder(clip.reached or 0.0, ceiling(clip, PILOT_SIDE)))
+        weight.append(10 ** ((got - left) / 10) / sum(other["clip"] == row["clip"] for other in rows))
+    features, weights = np.array(a), np.array(weight)
+    square = (features * weights[:, None]).T @ features + np.diag(PILOT_PENALTY + 1e-9)
+    return tuple(np.linalg.solve(square, features.T @ (weights * np.array(b))).tolist())
+
+
+def spent(row: dict[str, Any]) -> tuple[float, float, float]:
+    """Steps of the lift and of the joint stage, and joint steps of the whole schedule."""
+    config, done = config_of(row), {name: row["stages"].get(name, {"steps": 0})["steps"] for name in ("lift", "joint")}
+    planned = done["joint"] if config.paced else config.joint_steps_of("non_rigid_motion" in row["on"])
+    return done["lift"], done["joint"], planned
+
+
 def motion_law(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """ln c and exponents of the motion, drawn towards 1 (frames), 1 (objects) and 0.3 (pixels)."""
     usual = np.array([0.0, 1.0, 1.0, 0.3])
@@ -115,10 +150,11 @@ def fit(rows: list[dict[str, Any]], errors: tuple[float, float] = (1.0, 0.2)) ->
         levels.append(level(row))
         psnr.append(seen_psnr(row))
         clips.append(row["clip"])
+    shown = [row for row in rows if row["kind"] in ("preset", "size")]
     return Model(
         tuple(non_negative(np.array(steps), np.array(ms)).tolist()),
         tuple(motion_law(np.array(motions), np.array(seconds)).tolist()),
-        tuple(decibel_law(np.array(levels), np.array(psnr), clips).tolist()), *errors,
+        tuple(decibel_law(np.array(levels), np.array(psnr), clips).tolist()), *errors, pilot_law(shown), errors[0],
     )  # fmt: skip
 
 
@@ -130,8 +166,7 @@ def seen_psnr(row: dict[str, Any]) -> float:
 
 
 def level(row: dict[str, Any]) -> np.ndarray:
-    done = {name: row["stages"].get(name, {"steps": 0})["steps"] for name in ("lift", "joint")}
-    return decibel_features(Difficulty(**row["difficulty"]), work(row), (done["lift"], done["joint"]),
+    return decibel_features(Difficulty(**row["difficulty"]), work(row), spent(row)[:2],
                             row["config"]["gaussians_per_object"])  # fmt: skip
 
 
@@ -154,12 +189,16 @@ def left_out(clips: dict[str, list[dict[str, Any]]]) -> list[dict[str, Any]]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+", type=Path)
+    parser.add_argument("--pilots", type=Path)
     parser.add_argument("--json", type=Path)
     args = parser.parse_args()
     clips = {f.name: [json.loads(p.read_text()) for p in sorted((f / "rows").glob("*.json"))] for f in args.folders}
+    pilots = json.loads(args.pilots.read_text()) if args.pilots else {}
     for name, rows in clips.items():
         for row in rows:
             row["clip"] = name
+            if "difficulty" in row:
+                row["difficulty"] |= pilots.get(name, {})
     found = left_out(clips)
     for row in found:
         print(f"{row['clip']:15} {row['run']:18} {row['told_s']:6.1f} s told, {row['seconds'] or 0:6.1f} taken;  "
@@ -170,7 +209,8 @@ def main() -> None:
     time = np.array([row["told_s"] / row["seconds"] - 1 for row in found if row["free"] and row["seconds"]])
     clip_off = [(off[[row["clip"] == name for row in found]] ** 2).mean() for name in {row["clip"] for row in found}]
     errors = (float(np.sqrt(np.mean(clip_off))), float(np.sqrt((np.concatenate([time, pace]) ** 2).mean())))
-    print(f"dB: rms {errors[0]:.2f} per clip, within 1.0: {(np.abs(off) <= 1).sum()} of {len(off)}")
+    mean = np.mean([np.abs(off[[row["clip"] == name for row in found]]).mean() for name in clips])
+    print(f"dB: rms {errors[0]:.2f} and mean {mean:.2f} per clip, within 1.0: {(np.abs(off) <= 1).sum()} of {len(off)}")
     print(f"seconds and steps: rms {100 * errors[1]:.0f} %; seconds of runs that ended by themselves: within 25 %: "
           f"{(np.abs(time) <= 0.25).sum()} of {len(time)}; steps got to: within 25 %: "
           f"{(np.abs(pace) <= 0.25).sum()} of {len(pace)}")  # fmt: skip

@@ -276,6 +276,7 @@ class FakeRun:
 def fake(monkeypatch):
     pytest.importorskip("torch")
     monkeypatch.setattr("genmojo_core.optimise.run.Run", FakeRun)
+    monkeypatch.setattr("genmojo_core.effects.pilot.pays", lambda *_: False)
     monkeypatch.setattr(FakeRun, "presses", None)
     monkeypatch.setattr(FakeRun, "fails", False)
     return FakeRun
@@ -297,6 +298,30 @@ def test_a_budget_alone_means_auto_and_a_named_preset_is_kept(capsys, clip_path)
         code, found, err = run(capsys, "effects", clip_path, *options)
         assert code == 0 and found["preset"] == name and "Expected: " in err
         assert found["forecast"]["seconds"] <= 20.0 and found["forecast"]["steps"] > 0
+
+
+def test_a_run_that_takes_long_sends_a_pilot_ahead_unless_asked_not_to(capsys, fake, clip_path, tmp_path, monkeypatch):
+    from genmojo_core.effects.pilot import Pilot
+    from genmojo_core.measure import pilot_run
+
+    sent, known = [], []
+    monkeypatch.setattr("genmojo_core.effects.pilot.pays", lambda *_: True)
+    monkeypatch.setattr("genmojo_core.effects.pilot.stored", lambda *_: known[0] if known else None)
+    monkeypatch.setattr(pilot_run, "piloted", lambda *_: (sent.append(1), known.append(Pilot(25.0, 30.0, 35.0))))
+    command = ["optimize", clip_path, "-o", str(tmp_path / "s.h5"), "--preset", "draft"]
+    _, plain, err = run(capsys, *command, "--no-pilot")
+    assert not sent and "pilot" not in err
+    _, found, err = run(capsys, *command)
+    assert sent == [1] and "A pilot of a few small frames" in err and "from a pilot run" in err
+    assert found["forecast"]["expected_psnr"] != plain["forecast"]["expected_psnr"]
+    _, _, err = run(capsys, *command)
+    assert sent == [1] and "A pilot of" not in err and "from a pilot run" in err  # it is kept
+    known.clear()
+    code, found, _ = run(capsys, "effects", clip_path, "--pilot")
+    assert code == 0 and sent == [1, 1] and found["forecast"]["clip"]["reached"] == 25.0
+    assert found["pilot_seconds"] is None
+    known.clear()
+    assert run(capsys, "effects", clip_path)[1]["pilot_seconds"] > 0 and sent == [1, 1]
 
 
 def test_ctrl_c_keeps_the_work(capsys, fake, clip_path, tmp_path, monkeypatch):

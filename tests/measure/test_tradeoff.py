@@ -10,13 +10,14 @@ from hypothesis import strategies as st
 
 from genmojo_core.cli.main import main
 from genmojo_core.clip import synthetic, synthetic_files
+from genmojo_core.clip.cut import cut
 from genmojo_core.clip.synthetic_specs import spec
 from genmojo_core.config import preset
 from genmojo_core.effects.auto import for_budget
 from genmojo_core.measure import tradeoff, tradeoff_figures, tradeoff_page
 from genmojo_core.measure.charts import Chart, Series
 from genmojo_core.measure.tradeoff_figures import Point, exponent, pareto, seconds_to_share
-from genmojo_core.measure.trials import Source, first_frames
+from genmojo_core.measure.trials import Source
 from tests.optimise.small_runs import small_clip
 
 
@@ -129,9 +130,9 @@ def test_charts_put_points_where_their_values_are():
     assert y0 > y2 > y1 and y0 - y2 == pytest.approx(y2 - y1)
 
 
-def test_first_frames_cuts_every_channel():
+def test_a_cut_takes_every_channel():
     clip = small_clip(frames=5)
-    short = first_frames(clip, 3)
+    short = cut(clip, 0, 3)
     assert (
         len(short) == len(short.masks.value) == len(short.depth.valid) == len(short.cameras.value.world_to_camera) == 3
     )
