@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import QCoreApplication, QEvent, QTimer
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QApplication, QWidget
 from shiboken6 import isValid
@@ -123,6 +123,8 @@ def _dress(application: QApplication, windows: list[QWidget]) -> Iterator[None]:
     for window in windows:
         if isValid(window):
             window.setUpdatesEnabled(True)
+            # One that was asked for meanwhile got lost; Qt would wait for it and never draw again.
+            QCoreApplication.sendEvent(window, QEvent(QEvent.Type.UpdateRequest))
     for first in range(0, len(hidden), _AT_ONCE):
         yield
         _polish(hidden[first : first + _AT_ONCE])

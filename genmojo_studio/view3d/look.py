@@ -37,8 +37,6 @@ TITLES = {
     Mode.CENTRES: "Centres",
 }  # fmt: skip
 SCALAR_MODES = frozenset({Mode.DEPTH, Mode.DEPTH_MEDIAN, Mode.OPACITY, Mode.RESIDUAL, Mode.FLOW})  # have a legend
-UNITS = {Mode.DEPTH: "scene units", Mode.DEPTH_MEDIAN: "scene units", Mode.OPACITY: "", Mode.RESIDUAL: "of full scale",
-         Mode.FLOW: "px"}  # fmt: skip
 
 
 @dataclass(frozen=True)

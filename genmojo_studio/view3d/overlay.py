@@ -14,14 +14,20 @@ from PySide6.QtGui import QColor, QFont, QImage, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
 from genmojo_core.clip.cameras import View
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import mark, tr
 from genmojo_studio.view3d.colouring import flow_wheel, palette_rgb
 from genmojo_studio.view3d.frames import FrameReport
-from genmojo_studio.view3d.look import SCALAR_MODES, TITLES, UNITS, Mode
+from genmojo_studio.view3d.look import SCALAR_MODES, TITLES, Mode
 from genmojo_studio.view3d.safe_band import SAFE_DEGREES, degrees_outside
 
 Paint = Callable[[QPainter, View, float], None]  # (painter, camera in logical pixels, time)
 
+UNITS = {
+    Mode.DEPTH: mark("scene units"),
+    Mode.DEPTH_MEDIAN: mark("scene units"),
+    Mode.RESIDUAL: mark("of full scale"),
+    Mode.FLOW: "px",
+}
 GIZMO = 92  # side of the square in the upper right corner
 _MARGIN = 10
 _LEGEND_FROM = 260  # height of a view that has room for a legend

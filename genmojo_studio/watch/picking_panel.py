@@ -96,7 +96,7 @@ class PickingPanel(QWidget):
         )
         strongest = sorted(pick.contributors, key=lambda one: -one.weight)[:_MOST_ROWS]
         for one in strongest:
-            item = _item(one)
+            item = _item(one, snapshot is not None and snapshot.object_of(one.object_id).is_background)
             self.list.addTopLevelItem(item)
             if one.row == pick.main.row:
                 self.list.setCurrentItem(item)
@@ -166,9 +166,9 @@ class PickingPanel(QWidget):
         self._here.setValue(self._state.frame + 1)
 
 
-def _item(one: Contributor) -> QTreeWidgetItem:
+def _item(one: Contributor, is_background: bool) -> QTreeWidgetItem:
     texts = [
-        one.object_name,
+        tr("Background") if is_background else one.object_name,
         f"{100 * one.weight:.1f} %",
         f"{one.depth:.3f}",
         f"{one.opacity:.2f}",

@@ -66,6 +66,7 @@ class ViewPanel(QWidget):
         for (name, field), title in zip(self.fields.items(), titles, strict=True):
             form.addRow(title, field)
             field.valueChanged.connect(lambda value, name=name: self._typed(name, value))
+            field.clear()  # nothing is known without a scene
         self.map = ViewMap(state)
         self.map.orbit_wanted.connect(self.orbit_wanted)
         self.badge = QLabel()

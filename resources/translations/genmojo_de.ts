@@ -1672,6 +1672,14 @@
       <translation>OpenGL wird hier nachgeahmt: der Prozessor zeichnet direkt, das ist schneller.</translation>
     </message>
     <message>
+      <source>scene units</source>
+      <translation>Szeneneinheiten</translation>
+    </message>
+    <message>
+      <source>of full scale</source>
+      <translation>der vollen Skala</translation>
+    </message>
+    <message>
       <source>elevation {degrees:+.1f}°</source>
       <translation>Höhe {degrees:+.1f}°</translation>
     </message>

@@ -67,8 +67,6 @@ class Drive:
         watch = self.window.workspaces.get("watch")
         if watch is not None and watch.view.snapshot is not None and watch.view.isVisible():
             self.drawn(watch)
-        self.wait(self.window.updatesEnabled, 60, "the theme")
-        self.rest(0.3)
         self.shots += 1
         dog = self.window.watchdog
         stalls, longest = list(dog.stalls), dog.longest
@@ -77,6 +75,10 @@ class Drive:
         self.window.screen().grabWindow(0).save(str(self.folder / f"{self.shots:02d}-{name}.png"))
         self.rest(0.2)
         dog.stalls, dog.longest = stalls, longest  # taking the picture held up the window, not the app
+
+    def corner(self):
+        """The colour that the screen has in the window's corner."""
+        return self.window.screen().grabWindow(0, 3, 3, 1, 1).toImage().pixelColor(0, 0).name()
 
     def drawn(self, watch):
         """The view shows what was asked of it last, in full."""
@@ -248,7 +250,9 @@ def _exports(drive, watch):
         drive.wait(lambda: take.last is not None, 180, request.kind)
     take.save_picture(str(drive.folder / "view.png"), (640, 360), True)
     drive.wait(lambda: take.last is not None, 60, "the picture")
+    dark = drive.corner()
     drive.do("window.theme")
+    drive.wait(lambda: drive.corner() != dark, 60, "the light theme")
     drive.shot("light")
     copied = scene_hdf5.read(copy)
     psnr = copied.curve[-1]["psnr_held_out"]

@@ -122,6 +122,19 @@ def test_the_theme_changes_at_once_and_is_remembered(window):
     window.table.trigger("window.theme")
 
 
+def test_the_screen_shows_the_theme_every_time_it_changes(window, qtbot):
+    window.show_workspace("watch")
+    qtbot.wait(300)
+
+    def corner():
+        return window.screen().grabWindow(window.winId(), 3, 3, 1, 1).toImage().pixelColor(0, 0).name()
+
+    for _ in range(4):
+        before = corner()
+        window.table.trigger("window.theme")
+        qtbot.waitUntil(lambda before=before: corner() != before, timeout=60_000)
+
+
 def test_the_panels_go_away_and_come_back_as_they_were(window, qtbot):
     """By key, in both workspaces, remembered; the picture gets the room."""
     from genmojo_studio import app
