@@ -38,7 +38,7 @@ START_SHARE = 0.8  # of the allowed Gaussians that there are on average over a r
 STEP_NAMES = ("views x pixels x channels, millions", "views x Gaussians, thousands", "views x bending Gaussians, "
               "thousands", "objects shown to the prior", "objects", "one")  # fmt: skip
 PILOT_NAMES = ("one", "ln steps per frame that all frames see", "dB that the pilot is below what flow carries")
-LEAST_REST = 0.2  # of a squared error: what cannot come from few pixels
+LEAST_REST = 0.35  # of a squared error: what cannot come from few pixels
 DB_NAMES = (
     "one",
     "motion",
@@ -97,12 +97,13 @@ class Model:
 # before a still background; decibels on these and dogs-jump. The error of dB is that per clip, each left out: tennis
 # 6 dB too low, made clips 2 dB too low, dogs-jump 4 dB too high. Of runs that ended by themselves 12 of 14 were told
 # within 25 %. Rows of dogs-jump and half of those of blender-trio are from before objects were shaded.
-# With pilots: 36 runs of nine of these clips (no dogs-jump), the error again per clip, each left out; on average 0.8 dB
-# off, 23 runs within 1 dB. Farthest off are runs stopped before all frames took part (3 dB too high on crossing).
+# With pilots: 37 runs of eight of these clips and one made with objects that leave and return, the error again per
+# clip, each left out: 1.3 dB off on average, the clip whose objects return 2.4 dB too high (its pilot saw them all the
+# time), blender-cross 1.9 dB too low.
 MODEL = Model(
     step=(52.79, 0.02909, 6.19, 49.35, 4.897, 17.3), motion=(-3.602, 1.154, 0.6592, 0.1463),
     decibel=(-17.5, 1.038, 2.438, 0.5313, 0.837), decibel_error=3.0, seconds_error=0.19,
-    piloted=(-11.32, 3.176, 0.7217), piloted_error=1.1,
+    piloted=(-7.366, 1.96, 0.2875), piloted_error=1.6,
 )  # fmt: skip
 
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from genmojo_core.clip import folders
+from genmojo_core.clip import folders, resize
 from genmojo_core.clip.clip import Clip
 from genmojo_core.measure import truth
 from genmojo_core.measure.reconstruction import SHORT_SIDE, reconstruction
@@ -24,10 +25,13 @@ class Scorer:
 
     Args:
         clip_path, frames: as the clip of the run was read; it is read again at the size everything is measured at.
+        completed: that clip; its masks count where none lie on disk (they grew from boxes).
     """
 
-    def __init__(self, clip_path: str, frames: tuple[int, int | None] | None = None) -> None:
-        self.path, self.frames = clip_path, frames
+    def __init__(
+        self, clip_path: str, frames: tuple[int, int | None] | None = None, completed: Clip | None = None
+    ) -> None:
+        self.path, self.frames, self.completed = clip_path, frames, completed
         self.truth = truth.find_truth(clip_path)
         self._clip: Clip | None = None
         self._next = FIRST_MOMENT
@@ -47,17 +51,29 @@ class Scorer:
 
         Raises GenmojoError as reading the clip and its truth.
         """
-        clip = self._measured()
+        clip = self.measured()
         found: dict[str, float] = dict(reconstruction(scene, clip))
         if self.truth is not None:
             found |= {k: v for k, v in truth.track_scores(scene, clip, self.truth).items() if isinstance(v, float)}
             found |= novel_figures(scene, clip, self.truth) if unseen else {}
         return {key: float(value) for key, value in found.items() if math.isfinite(value)}
 
-    def _measured(self) -> Clip:
+    def measured(self) -> Clip:
+        """The clip at the size to measure at. Raises GenmojoError as reading it."""
         if self._clip is None:
-            self._clip = folders.read(self.path, frames=self.frames, short_side=SHORT_SIDE)
+            clip = folders.read(self.path, frames=self.frames, short_side=SHORT_SIDE)
+            self._clip = clip if clip.masks is not None or self.completed is None else _masked(clip, self.completed)
         return self._clip
+
+
+def _masked(clip: Clip, completed: Clip) -> Clip:
+    """A clip with the masks of the same frames at another size."""
+    if completed.masks is None:
+        return clip
+    labels = np.stack([resize.nearest_labels(frame, clip.size) for frame in completed.masks.value])
+    valid = np.stack([resize.nearest(frame, clip.size) for frame in completed.masks.valid])
+    return clip.with_channels(masks=replace(completed.masks, value=labels, valid=valid),
+                              object_ids=completed.object_ids, object_names=completed.object_names)  # fmt: skip
 
 
 def novel_figures(scene: BakedScene, clip: Clip, truth_path: Path) -> dict[str, float]:

@@ -97,10 +97,11 @@ class Bench:
         if trial.kind == "growth":
             return row | _growth(clip, plan, trial)
         run = Run(clip, plan, trial.config)
+        self._scorer.completed = clip
         shared = trial.kind in ("effect", "loss")
         if shared:
             run.motions = self._motions.get(trial.config.short_side)
-        figures = _watched(run, None if shared else Scorer(self.source.path, self.source.frames), hear)
+        figures = _watched(run, None if shared else Scorer(self.source.path, self.source.frames, clip), hear)
         if shared and run.motions is not None:
             self._motions[trial.config.short_side] = run.motions
         scene = run.bake()

@@ -11,6 +11,7 @@ import numpy as np
 import torch
 
 from genmojo_core.config import LearningRates, RunConfig
+from genmojo_core.optimise.adamw import AdamW
 from genmojo_core.scene.scene4d import Scene4D
 
 FINAL_RATE = 0.1  # of the first learning rate, reached at the end
@@ -88,7 +89,7 @@ def wear_factor(step: int, frames: int, frames_per_step: int) -> float:
     return min(1.0, LOOKS * frames / (step * frames_per_step))
 
 
-def make_optimiser(scene: Scene4D, config: RunConfig) -> torch.optim.AdamW:
+def make_optimiser(scene: Scene4D, config: RunConfig) -> AdamW:
     """AdamW with one group per kind of parameter; decay 0.01 only on the deformation field (METHOD.md section 5).
 
     Decay on opacity logits and placements would shrink them for no reason (METHOD.md section 2).
@@ -99,7 +100,7 @@ def make_optimiser(scene: Scene4D, config: RunConfig) -> torch.optim.AdamW:
         if parameter.requires_grad:
             groups.setdefault("rigid_means" if id(parameter) in rigid else _kind(name), []).append(parameter)
     rows = [group_of(kind, members, config) for kind, members in groups.items()]
-    return torch.optim.AdamW(rows, eps=1e-15, betas=(0.9, 0.99), fused=True)
+    return AdamW(rows, eps=1e-15, betas=(0.9, 0.99), fused=True)
 
 
 def group_of(kind: str, members: list[torch.nn.Parameter], config: RunConfig) -> dict[str, Any]:

@@ -21,6 +21,7 @@ from genmojo_core.config import RunConfig
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.effects.still import background_is_still
 from genmojo_core.events import Event, StageStarted
+from genmojo_core.optimise.adamw import AdamW
 from genmojo_core.optimise.objective import Objective, States
 from genmojo_core.optimise.schedule import rate_factor, start_rate
 from genmojo_core.optimise.separate import SeparateObjective
@@ -137,7 +138,7 @@ class StillObjective(Objective):
         """
         background = self._background()
         parameters = [(name, p) for name, p in background.named_parameters() if p.requires_grad]
-        optimiser = torch.optim.AdamW(
+        optimiser = AdamW(
             [{"params": [p], "lr": start_rate(name, config.rates), "name": name} for name, p in parameters],
             eps=1e-15, betas=(0.9, 0.99), weight_decay=0.0, fused=True,
         )  # fmt: skip

@@ -2,19 +2,35 @@
 
 The reports count CPU seconds, which other work on the machine changes little; each takes eight to twenty CPU minutes,
 and its rows lie in DIR/reports, so that an interrupted one goes on where it stopped. Schedules that know their budget
-are compared with the presets at longer times in rows of their own.
+are compared with the presets at longer times in rows of their own. What forecasts are judged on lies in DIR/forecast, a
+folder a clip.
 """
 
 from __future__ import annotations
 
 import json
 import re
+import shutil
+from dataclasses import asdict, replace
+from pathlib import Path
 from typing import Any
 
 from table import Bench, Check, Rows
 
+from genmojo_core.clip.synthetic import generate
+from genmojo_core.clip.synthetic_effects import made_clip
+from genmojo_core.clip.synthetic_files import write
+from genmojo_core.config import preset
+from genmojo_core.effects import decide
+from genmojo_core.estimate.masks import Box
+from genmojo_core.measure import trials
+from genmojo_core.measure.pilot_run import piloted
+from genmojo_core.measure.scoring import Scorer
+
 CLIPS = {"crossing": "0:24", "gold-fish": "0:24", "blender-cross": "", "blender-trio": ""}
 NOISE = 0.2  # dB that two runs of the same settings may differ by
+MADE = (203, 213)  # seeds of made clips that forecasts are judged on beside the shared ones
+BOXES: dict[str, Box] = {"bear": Box(0, 70, 150, 500, 430, 1), "cups": Box(0, 560, 282, 745, 550, 1)}
 REPORT = ("--seeds", "1", "--clock", "cpu", "--json")
 
 
@@ -62,21 +78,50 @@ def _leads(told: dict[str, Any]) -> list[Check]:
 
 
 def forecasts(bench: Bench) -> list[Check]:
-    """Seconds and decibels foretold for each clip by a model of the others."""
-    out = bench.work / "forecast.json"
-    folders = [str(p) for p in sorted((bench.work / "reports").iterdir()) if (p / "rows").is_dir()]
-    bench.python("-m", "tests.benchmarks.forecast", *folders, "--json", str(out))
+    """Seconds and decibels foretold for each clip by a model of the others, dB from pilots of the clips."""
+    names = [*CLIPS, "tennis", "dogs-jump", *BOXES, *(f"made-{seed}" for seed in MADE)]
+    pilots, folders = {}, []
+    for name in names:
+        folder = bench.work / "forecast" / name
+        pilots[name] = _judged(bench, name, folder)
+        folders.append(str(folder))
+        for row in sorted((bench.work / "reports" / name / "rows").glob("*.json")):
+            shutil.copy(row, folder / "rows" / row.name)
+    told, out = bench.work / "forecast" / "pilots.json", bench.work / "forecast.json"
+    told.write_text(json.dumps(pilots))
+    bench.python("-m", "tests.benchmarks.forecast", *folders, "--pilots", str(told), "--json", str(out))
     rows = json.loads(out.read_text())["rows"]
-    off = [abs(r["told_db"] - r["psnr"]) for r in rows]
+    by_clip = {name: [abs(r["told_db"] - r["psnr"]) for r in rows if r["clip"] == name] for name in names}
+    off = [one for own in by_clip.values() for one in own]
+    mean = sum(sum(own) / len(own) for own in by_clip.values()) / len(by_clip)
     time = [abs(r["told_s"] / r["seconds"] - 1) for r in rows if r["free"]]
     pace = [abs(r["told_steps"] / r["steps"] - 1) for r in rows if r["steps"]]
     return [
-        Check("clips", len(folders)), Check("runs", len(rows)),
-        Check("% within 1.0 dB", 100 * sum(o <= 1.0 for o in off) / len(off), 100),
-        Check("largest dB off", max(off)),
+        Check("clips", len(folders)), Check("runs", len(rows)), Check("dB off per clip on average", mean, 1.0, True),
+        Check("% within 1.0 dB", 100 * sum(o <= 1.0 for o in off) / len(off), 100), Check("largest dB off", max(off)),
         Check("% of seconds within 25 %", 100 * sum(t <= 0.25 for t in time) / len(time) if time else None, 100),
         Check("% of steps got to within 25 %", 100 * sum(p <= 0.25 for p in pace) / len(pace) if pace else None, 100),
     ]  # fmt: skip
+
+
+def _judged(bench: Bench, name: str, folder: Path) -> dict[str, float]:
+    """A draft of a clip, its row in folder/rows, and the clip's pilot; both kept."""
+    row, told = folder / "rows" / "draft-whole.json", folder / "pilot.json"
+    if row.exists() and told.exists():
+        return dict(json.loads(told.read_text()))
+    row.parent.mkdir(parents=True, exist_ok=True)
+    path = bench.data / ("cups/cups.mp4" if name == "cups" else name)
+    if name.startswith("made-"):
+        path = folder / "clip"
+        write(*generate(replace(made_clip(int(name[5:])).spec, name=name, frames=24, size=(320, 240))), path)
+    boxes = (BOXES[name],) if name in BOXES else ()
+    config = preset("draft", clock="cpu", budget_seconds=1200.0, device="cpu")
+    runs = trials.Bench(trials.Source(str(path), (0, 24), boxes))
+    clip, _ = runs.clip(config)
+    pilot = piloted(clip, decide.plan(clip, config), Scorer(str(path), (0, 24), clip).measured(), lambda _: None)
+    row.write_text(json.dumps(runs.run(trials.Trial("draft", "preset", "draft", config), lambda _: None)))
+    told.write_text(json.dumps(asdict(pilot)))
+    return asdict(pilot)
 
 
 REPORTS: Rows = {**report("crossing"), **report("gold-fish"), **report("blender-cross"), **report("blender-trio")}

@@ -31,7 +31,7 @@ def test_what_few_pixels_cost_is_taken_off_and_put_back(decibel, above):
     limit = decibel + above
     rest = remainder(decibel, limit)
     assert decibel < rest <= decibel - 10 * math.log10(forecast.LEAST_REST) + 1e-9
-    if above > 1.0:  # else a least share is kept
+    if 1 - 10 ** (-above / 10) > forecast.LEAST_REST:  # else a least share is kept
         assert together(rest, limit) == pytest.approx(decibel)
 
 
