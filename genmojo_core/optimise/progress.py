@@ -78,6 +78,7 @@ class Progress:
         self._stage_step = 0
         self._saved_at = 0.0
         self._pace: Pace | None = None
+        self._paced_from = ("", 0, 0.0)  # stage, step and seconds of this run at the first event of a stage
         self._goal = goal_of(config.until)
         self._rule = StopRule()
 
@@ -173,12 +174,18 @@ class Progress:
     def event(self, clock: Clock, gaussians: int) -> Step:
         """The step just done, as an event."""
         wall, cpu = clock.now()
-        done = self.fraction(clock)
-        spent = clock.this_run()
-        left = min(spent * (1.0 - done) / max(done, 1e-6), self.config.budget_seconds - spent)
         outcome = self._last
         return Step(wall, cpu, self._stage.name, self._stage_step, self._stage.steps, float(outcome.loss.detach()),
-                    outcome.parts, gaussians, self.psnr(), done, max(0.0, left))  # fmt: skip
+                    outcome.parts, gaussians, self.psnr(), self.fraction(clock), self._seconds_left(clock))  # fmt: skip
+
+    def _seconds_left(self, clock: Clock) -> float:
+        """Until the run ends, by the pace of this stage's steps (not by what went before them), within the budget."""
+        spent = clock.this_run()
+        if self._paced_from[0] != self._stage.name:
+            self._paced_from = self._stage.name, self.step, spent
+        _, step, began = self._paced_from
+        seconds, steps = (spent - began, self.step - step) if self.step > step else (spent, self.step)
+        return max(0.0, min(seconds / steps * (self.total - self.step), self.config.budget_seconds - spent))
 
     def checkpoint_due(self, clock: Clock) -> bool:
         """True every `checkpoint_seconds`."""
