@@ -20,6 +20,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.atomic import write_bytes
+from genmojo_studio.translate import tr
 from genmojo_studio.view3d.snapshot import SceneSnapshot
 from genmojo_studio.worker import death, runs
 from genmojo_studio.worker.line import Line
@@ -312,8 +313,9 @@ class WorkerClient(QObject):
 
     def _on_refused(self, message: dict[str, Any]) -> None:
         self._line.close()
-        title = f"The run was started by another version of the program (protocol {message.get('version')})."
-        report = death.DeathReport("version", title, death.ADVICE["version"], final=False, run_dir=self.run_dir)
+        title = tr("The run was started by another version of the program (protocol {version}).")
+        title = title.format(version=message.get("version"))
+        report = death.DeathReport("version", title, tr(death.ADVICE["version"]), final=False, run_dir=self.run_dir)
         self._timer.stop()
         self.died.emit(report)
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
+from genmojo_studio.translate import mark, told, tr
 from genmojo_studio.worker import runs
 
 Kind = Literal["input", "exception", "memory", "killed", "segfault", "hang", "start", "version"]
@@ -40,14 +41,14 @@ class DeathReport:
 
 
 ADVICE: dict[Kind, str] = {
-    "input": "Correct this and start again.",
-    "exception": "This is a fault of the program; please report it with the details.",
-    "memory": "Close other programs, or choose a smaller size, fewer Gaussians per object or the draft preset.",
-    "killed": "Another program or the system ended it; if nobody did so on purpose, memory may have run out.",
-    "segfault": "This is a fault in compiled code; please report it with the details.",
-    "hang": "Wait if the machine was asleep or very busy; else end it and resume from the last checkpoint.",
-    "start": "Look at the details; reinstalling the program may help.",
-    "version": "Let the run finish or end it, then start it again with this version of the program.",
+    "input": mark("Correct this and start again."),
+    "exception": mark("This is a fault of the program; please report it with the details."),
+    "memory": mark("Close other programs, or choose a smaller size, fewer Gaussians per object or the draft preset."),
+    "killed": mark("Another program or the system ended it; if nobody did so on purpose, memory may have run out."),
+    "segfault": mark("This is a fault in compiled code; please report it with the details."),
+    "hang": mark("Wait if the machine was asleep or very busy; else end it and resume from the last checkpoint."),
+    "start": mark("Look at the details; reinstalling the program may help."),
+    "version": mark("Let the run finish or end it, then start it again with this version of the program."),
 }
 
 
@@ -73,24 +74,31 @@ def classify(
     crashed = _signal(exit_code) in ("SIGSEGV", "SIGBUS", "SIGILL", "SIGFPE", "SIGABRT")
     windows_fault = exit_code in (0xC0000005, -1073741819)
     if crashed or windows_fault or "Fatal Python error" in fault:
-        name = _signal(exit_code) or "an access violation"
-        return _report("segfault", f"The optimiser crashed in compiled code ({name}).", fault or log, folder, beat)
+        name = _signal(exit_code) or tr("an access violation")
+        title = tr("The optimiser crashed in compiled code ({name}).").format(name=name)
+        return _report("segfault", title, fault or log, folder, beat)
     if _memory_was_short(beat):
         rss = float(beat.get("rss_mb", 0)) / 1024
-        return _report("memory", f"The system ended the optimiser when memory ran out; it used {rss:.1f} GB.", log,
-                       folder, beat)  # fmt: skip
+        title = tr("The system ended the optimiser when memory ran out; it used {gb:.1f} GB.").format(gb=rss)
+        return _report("memory", title, log, folder, beat)
     if exit_code in (None, 0) or exit_code < 0:
-        by = f" by {_signal(exit_code)}" if _signal(exit_code) else ""
-        return _report("killed", f"The optimiser was ended from outside{by}.", log, folder, beat)
+        name = _signal(exit_code)
+        by = tr("The optimiser was ended from outside by {name}.").format(name=name)
+        return _report("killed", by if name else tr("The optimiser was ended from outside."), log, folder, beat)
     if not started and (pid is None or runs.read_json(folder / runs.LOCK).get("pid") != pid):
-        return _report("start", f"The optimiser could not start (exit code {exit_code}).", log, folder, beat)
-    return _report("exception", f"The optimiser ended with exit code {exit_code}.", fault or log, folder, beat)
+        title = tr("The optimiser could not start (exit code {code}).").format(code=exit_code)
+        return _report("start", title, log, folder, beat)
+    title = tr("The optimiser ended with exit code {code}.").format(code=exit_code)
+    return _report("exception", title, fault or log, folder, beat)
 
 
 def hung(run_dir: str | Path, beat: Mapping[str, Any], silent: float, phase: str) -> DeathReport:
     """The report on a worker that gives no sign of life; `silent`: seconds without heartbeat or without progress."""
-    where = f" while {phase}" if phase else ""
-    report = _report("hang", f"The optimiser has not answered for {silent:.0f} s{where}.", "", Path(run_dir), beat)
+    title = tr("The optimiser has not answered for {seconds:.0f} s.")
+    if phase:
+        title = tr("The optimiser has not answered for {seconds:.0f} s while {phase}.")
+    title = title.format(seconds=silent, phase=told(phase))
+    report = _report("hang", title, "", Path(run_dir), beat)
     return DeathReport(**{**report.__dict__, "final": False})
 
 
@@ -98,9 +106,9 @@ def _report(kind: Kind, title: str, detail: str, folder: Path, beat: Mapping[str
     """With the advice of its kind and what can be resumed."""
     resumable = (folder / "checkpoint.json").is_file()
     step = max(int(beat.get("step", 0)), runs.steps_told(runs.read_events(folder)))  # a heartbeat is up to 1 s old
-    advice = ADVICE[kind]
+    advice = tr(ADVICE[kind])
     if resumable and kind != "hang":
-        advice += " The run can be resumed from its last checkpoint."
+        advice += " " + tr("The run can be resumed from its last checkpoint.")
     return DeathReport(kind, title, advice, detail, step, resumable, True, str(folder))
 
 

@@ -2686,6 +2686,82 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Wird geladen …</translation>
     </message>
     <message>
+      <source>The run was started by another version of the program (protocol {version}).</source>
+      <translation>Der Lauf wurde von einer anderen Version des Programms gestartet (Protokoll {version}).</translation>
+    </message>
+    <message>
+      <source>Correct this and start again.</source>
+      <translation>Das berichtigen und neu starten.</translation>
+    </message>
+    <message>
+      <source>This is a fault of the program; please report it with the details.</source>
+      <translation>Das ist ein Fehler des Programms; bitte mit den Einzelheiten melden.</translation>
+    </message>
+    <message>
+      <source>Close other programs, or choose a smaller size, fewer Gaussians per object or the draft preset.</source>
+      <translation>Andere Programme schließen, oder eine kleinere Größe, weniger Gaußglocken je Objekt oder die Voreinstellung Entwurf wählen.</translation>
+    </message>
+    <message>
+      <source>Another program or the system ended it; if nobody did so on purpose, memory may have run out.</source>
+      <translation>Ein anderes Programm oder das System hat sie beendet; wenn das niemand wollte, ging vielleicht der Speicher aus.</translation>
+    </message>
+    <message>
+      <source>This is a fault in compiled code; please report it with the details.</source>
+      <translation>Das ist ein Fehler in übersetztem Code; bitte mit den Einzelheiten melden.</translation>
+    </message>
+    <message>
+      <source>Wait if the machine was asleep or very busy; else end it and resume from the last checkpoint.</source>
+      <translation>Warten, wenn der Rechner schlief oder sehr beschäftigt war; sonst beenden und vom letzten Prüfpunkt fortsetzen.</translation>
+    </message>
+    <message>
+      <source>Look at the details; reinstalling the program may help.</source>
+      <translation>Die Einzelheiten ansehen; das Programm neu zu installieren kann helfen.</translation>
+    </message>
+    <message>
+      <source>Let the run finish or end it, then start it again with this version of the program.</source>
+      <translation>Den Lauf zu Ende gehen lassen oder beenden und mit dieser Version des Programms neu starten.</translation>
+    </message>
+    <message>
+      <source>The optimiser has not answered for {seconds:.0f} s.</source>
+      <translation>Die Optimierung antwortet seit {seconds:.0f} s nicht.</translation>
+    </message>
+    <message>
+      <source>The optimiser has not answered for {seconds:.0f} s while {phase}.</source>
+      <translation>Die Optimierung antwortet seit {seconds:.0f} s nicht ({phase}).</translation>
+    </message>
+    <message>
+      <source>an access violation</source>
+      <translation>unerlaubter Speicherzugriff</translation>
+    </message>
+    <message>
+      <source>The optimiser ended with exit code {code}.</source>
+      <translation>Die Optimierung endete mit Code {code}.</translation>
+    </message>
+    <message>
+      <source>The run can be resumed from its last checkpoint.</source>
+      <translation>Der Lauf kann von seinem letzten Prüfpunkt fortgesetzt werden.</translation>
+    </message>
+    <message>
+      <source>The optimiser crashed in compiled code ({name}).</source>
+      <translation>Die Optimierung ist in übersetztem Code abgestürzt ({name}).</translation>
+    </message>
+    <message>
+      <source>The system ended the optimiser when memory ran out; it used {gb:.1f} GB.</source>
+      <translation>Das System hat die Optimierung beendet, als der Speicher ausging; sie brauchte {gb:.1f} GB.</translation>
+    </message>
+    <message>
+      <source>The optimiser was ended from outside by {name}.</source>
+      <translation>Die Optimierung wurde von außen durch {name} beendet.</translation>
+    </message>
+    <message>
+      <source>The optimiser was ended from outside.</source>
+      <translation>Die Optimierung wurde von außen beendet.</translation>
+    </message>
+    <message>
+      <source>The optimiser could not start (exit code {code}).</source>
+      <translation>Die Optimierung konnte nicht starten (Code {code}).</translation>
+    </message>
+    <message>
       <source>Opens a folder of images or a clip.</source>
       <translation>Öffnet einen Ordner mit Bildern oder einen Clip.</translation>
     </message>

@@ -150,7 +150,7 @@ def _play(drive, seconds, clip=None):
     watch.setup.preset.setCurrentIndex(watch.setup.preset.findData("standard"))
     watch.setup.budget.setValue(seconds + 600)
     QTest.mouseClick(watch.setup.start_button, Qt.MouseButton.LeftButton)
-    drive.wait(lambda: len(watch.control.log.step) > 3, 240, "steps")
+    drive.wait(lambda: len(watch.control.log.step) > 3, 600, "steps")
     window.watchdog.reset()
     begun, done = time.monotonic(), 0
     docks = list(watch.docks.values())
@@ -193,7 +193,7 @@ def _run(drive, watch):
     drive.wait(lambda: watch.view.overlay.report is not None, 60, "the first cloud")  # drawn, not only known
     figures = {"first_cloud": time.monotonic() - begun}
     drive.shot("cloud")
-    drive.wait(lambda: len(control.log.step) > 10, 240, "steps")
+    drive.wait(lambda: len(control.log.step) > 10, 600, "steps")
     drive.shot("running")
     for name, angles in (("right_30", (0, 30)), ("above_30", (30, 0)), ("input", (0, 0))):
         drive.do(f"view.{name}")
