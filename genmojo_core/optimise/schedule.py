@@ -11,12 +11,13 @@ import numpy as np
 import torch
 
 from genmojo_core.config import LearningRates, RunConfig
-from genmojo_core.optimise.adamw import AdamW
+from genmojo_core.optimise.vector_adam import VectorAdamW
 from genmojo_core.scene.scene4d import Scene4D
 
 FINAL_RATE = 0.1  # of the first learning rate, reached at the end
 LOOKS = 50  # at every frame, after which learning rates fall
 OUTWARD_SHARE = 0.3  # of the joint stage, by which all frames take part
+VECTORS = ("means", "rigid_means", "bases")  # kinds of parameters whose rows are vectors in space
 LIFT_SHARE = 0.08  # of a paced run's time after the motion
 
 
@@ -89,10 +90,11 @@ def wear_factor(step: int, frames: int, frames_per_step: int) -> float:
     return min(1.0, LOOKS * frames / (step * frames_per_step))
 
 
-def make_optimiser(scene: Scene4D, config: RunConfig) -> AdamW:
+def make_optimiser(scene: Scene4D, config: RunConfig) -> VectorAdamW:
     """AdamW with one group per kind of parameter; decay 0.01 only on the deformation field (METHOD.md section 5).
 
-    Decay on opacity logits and placements would shrink them for no reason (METHOD.md section 2).
+    Decay on opacity logits and placements would shrink them for no reason (METHOD.md section 2). Positions, and the
+    vectors that they move along, step along their gradient (vector_adam.py).
     """
     groups: dict[str, list[torch.nn.Parameter]] = {}
     rigid = {id(model.gaussians.means) for model in scene.objects if model.field is None}
@@ -100,14 +102,15 @@ def make_optimiser(scene: Scene4D, config: RunConfig) -> AdamW:
         if parameter.requires_grad:
             groups.setdefault("rigid_means" if id(parameter) in rigid else _kind(name), []).append(parameter)
     rows = [group_of(kind, members, config) for kind, members in groups.items()]
-    return AdamW(rows, eps=1e-15, betas=(0.9, 0.99), fused=True)
+    return VectorAdamW(rows, eps=1e-15, betas=(0.9, 0.99), fused=True)
 
 
 def group_of(kind: str, members: list[torch.nn.Parameter], config: RunConfig) -> dict[str, Any]:
     """One kind of parameters as a group of the optimiser."""
     rate = start_rate(kind, config.rates)
     decay = 0.01 if kind in ("planes", "heads") else 0.0
-    return {"params": members, "lr": rate, "start_lr": rate, "kind": kind, "weight_decay": decay}
+    return {"params": members, "lr": rate, "start_lr": rate, "kind": kind, "weight_decay": decay,
+            "vectors": kind in VECTORS}  # fmt: skip
 
 
 def start_rate(kind: str, rates: LearningRates) -> float:
