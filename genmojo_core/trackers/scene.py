@@ -2,8 +2,9 @@
 
 The released code follows one nearest centre and drops queries without one near. Here a query's surface point is
 expressed in the local frame of every Gaussian that contributes to its pixel (weights alpha T, its own instance only),
-carried by each, and blended; no query is dropped. Every Gaussian turns about its own centre, so rotation carries
-offsets too. A rendered outline is good to a pixel or two, so a query that falls just beside an object belongs to it.
+carried by each, and blended; no query is dropped. Its depth is the median of theirs by weight. Every Gaussian turns
+about its own centre, so rotation carries offsets too. A rendered outline is good to a pixel or two, so a query that
+falls just beside an object belongs to it.
 """
 
 from __future__ import annotations
@@ -122,7 +123,7 @@ def _carriers(scene: BakedScene, t: np.ndarray, xy: np.ndarray) -> Carriers:
             place = _onto_object(xy[n], on_object, view)
             share = _contributions(place, means, conics, depth, frame.opacities)
             rows[n], weights[n], owner[n] = _choose(share, frame, xy[n], means, depth, count)
-            z = float(weights[n] @ depth[rows[n]])
+            z = _surface_depth(depth[rows[n]], weights[n])
             ray = np.array([(xy[n, 0] - view.cx) / view.fx, (xy[n, 1] - view.cy) / view.fy, 1.0])
             point = camera_to_world[:3, :3] @ (ray * z) + camera_to_world[:3, 3]
             away = point - frame.means[rows[n]]
@@ -201,6 +202,13 @@ def _choose(
     weights = np.zeros(count)
     weights[0] = 1.0
     return np.full(count, nearest), weights, int(owner[nearest])
+
+
+def _surface_depth(depth: np.ndarray, weights: np.ndarray) -> float:  # (C,), (C,) summing to 1
+    """The depth in front of which half the weight lies; a mean lies between front and back where the front is thin."""
+    order = np.argsort(depth, kind="stable")
+    before = np.cumsum(weights[order]) - 0.5 * weights[order]
+    return float(np.interp(0.5, before, depth[order]))
 
 
 def _carried(carriers: Carriers, scene: BakedScene, frame: Frame, i: int, t: np.ndarray) -> np.ndarray:  # (N, 3)
