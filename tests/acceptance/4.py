@@ -151,9 +151,10 @@ def deaths(bench: Bench) -> list[Check]:
 
 def _driven(bench: Bench, way: str, what: str, *more: str) -> dict:
     """The answer of tests/system/watching.py, whose screenshots go to DIR/<way>."""
+    home = str(bench.work / "home" / way)
     said = bench.run("xvfb-run", "-a", "-s", SCREEN, sys.executable, "tests/system/watching.py", str(bench.work / way),
                      what, *more, QT_XCB_GL_INTEGRATION=way, GENMOJO_RUNS=str(bench.work / "runs"),
-                     XDG_CONFIG_HOME=str(bench.work / "home"), XDG_DATA_HOME=str(bench.work / "home"))  # fmt: skip
+                     XDG_CONFIG_HOME=home, XDG_DATA_HOME=home)  # fmt: skip
     return json.loads(said.strip().splitlines()[-1])
 
 

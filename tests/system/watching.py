@@ -35,7 +35,10 @@ class Drive:
         self.told, self.shots, self.at_rest_db = [], 0, 99.0
         notify.show_dialog = lambda _parent, title, text, details: self.told.append((title, text, details))
         self.application = app.make_application()
-        self.window = app.make_window(self.application, Settings())
+        settings = Settings()
+        settings.forget_layouts()  # of an earlier drive
+        settings.put("theme", "dark")
+        self.window = app.make_window(self.application, settings)
         self.window.resize(1920, 1080)
         self.window.show()
 
@@ -78,7 +81,7 @@ class Drive:
 
     def corner(self):
         """The colour that the screen has in the window's corner."""
-        return self.window.screen().grabWindow(0, 3, 3, 1, 1).toImage().pixelColor(0, 0).name()
+        return self.window.screen().grabWindow(self.window.winId(), 3, 3, 1, 1).toImage().pixelColor(0, 0).name()
 
     def drawn(self, watch):
         """The view shows what was asked of it last, in full."""
