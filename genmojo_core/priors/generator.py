@@ -22,6 +22,7 @@ CONDITION = 64  # pixels of the condition's side
 SIDE = 32  # pixels of a target's side
 FRONT = 0.3  # how far in front of the origin the visible surface lies, median
 FILL = 0.65  # of the picture's side, taken by the longer side of the object's box
+LARGEST_CROP = 3.0  # an object of which less shows is no reference
 Rng = np.random.Generator
 
 
@@ -30,7 +31,8 @@ class Variation:
     """What may go wrong with a condition; the default is a clean one.
 
     scale: ln range of the box's size around FILL. shift: of its centre, in half pictures. occluded, depth_lost:
-    probabilities. depth_error: relative standard deviation of depth's stretch. noise: of the colours. blurred:
+    probabilities. depth_error: largest relative standard deviation of depth's stretch; an example's own lies anywhere
+    below, as some clips have measured depth and some a guess. noise: of the colours. blurred:
     probability that the picture was enlarged from fewer pixels. strange: probability of a family that the frozen test
     set does not know.
     """
@@ -45,7 +47,7 @@ class Variation:
     strange: float = 0.0
 
 
-TRAINING = Variation(0.22, 0.06, 0.35, 0.25, 0.25, 0.02, 0.4, 0.25)
+TRAINING = Variation(0.22, 0.06, 0.35, 0.25, 0.35, 0.02, 0.4, 0.25)
 
 
 @dataclass(frozen=True)
@@ -110,10 +112,16 @@ def shot(rng: Rng, make: Callable[[], Solids], variation: Variation) -> Shot | N
     elevation, distance = float(rng.uniform(-10, 40)), float(np.exp(rng.uniform(np.log(1.7), np.log(10.0))))
     fill = FILL * np.exp(rng.uniform(-1, 1) * variation.scale)
     centre = rng.uniform(-1, 1, 2) * variation.shift
-    solids = _placed(make(), elevation, distance, fill, centre)
+    made = make()
+    solids = _placed(made, elevation, distance, fill, centre)
     first = draw(solids, view_matrices(np.zeros((1, 2)), elevation, distance), distance, CONDITION)
     alpha = first.rgba[0, ..., 3]
-    hidden = _occluder(rng, alpha) if rng.random() < variation.occluded else np.zeros_like(alpha)
+    hidden = np.zeros_like(alpha)
+    if rng.random() < variation.occluded:
+        hidden, zoom, middle = _cropped(_occluder(rng, alpha), alpha, fill)
+        solids = _placed(made, elevation, distance, zoom * fill, zoom * (centre - middle) + centre)
+        first = draw(solids, view_matrices(np.zeros((1, 2)), elevation, distance), distance, CONDITION)
+        alpha = first.rgba[0, ..., 3]
     seen = (alpha > 0.5) & (hidden < 0.5)
     if seen.sum() < 24:
         return None
@@ -155,20 +163,43 @@ def _scaled(solids: Solids, factor: float, distance: float) -> Solids:
 
 
 def _occluder(rng: Rng, alpha: np.ndarray) -> np.ndarray:
-    """(C, C) 0 or 1: a straight edge, a bar or a ball in front of up to about half of the object."""
+    """(C, C) 0 or 1: an edge, a bar, a ball, all but a hole, all but a gap; up to about three quarters of the object."""
     side = len(alpha)
     y, x = (np.mgrid[:side, :side] + 0.5) / side * 2 - 1
     angle = rng.uniform(0, 2 * np.pi)
     along = x * np.cos(angle) + y * np.sin(angle)
-    kind = rng.integers(3)
+    kind = rng.integers(5)
     if kind == 0:
-        hidden = along > np.quantile(along[alpha > 0.5], rng.uniform(0.5, 0.95)) if (alpha > 0.5).any() else along > 1
+        hidden = along > np.quantile(along[alpha > 0.5], rng.uniform(0.25, 0.95)) if (alpha > 0.5).any() else along > 1
     elif kind == 1:
         hidden = np.abs(along - rng.uniform(-0.4, 0.4)) < rng.uniform(0.05, 0.2)
+    elif kind == 4:
+        hidden = np.abs(along - rng.uniform(-0.3, 0.3)) > rng.uniform(0.15, 0.5)
     else:
-        cx, cy = rng.uniform(-0.6, 0.6, 2)
-        hidden = (x - cx) ** 2 / rng.uniform(0.03, 0.2) + (y - cy) ** 2 / rng.uniform(0.03, 0.4) < 1
+        cx, cy = rng.uniform(-0.6, 0.6, 2) if kind == 2 else rng.uniform(-0.3, 0.3, 2)
+        inside = (x - cx) ** 2 / rng.uniform(0.03, 0.2) + (y - cy) ** 2 / rng.uniform(0.03, 0.4) < 1
+        hidden = inside if kind == 2 else ~inside
     return hidden.astype(np.float32)
+
+
+def _cropped(hidden: np.ndarray, alpha: np.ndarray, fill: float) -> tuple[np.ndarray, float, np.ndarray]:
+    """A clip's crop is taken around what shows, not around the whole object: how that changes a picture.
+
+    Returns the occluder (C, C) as the new crop shows it, the enlargement (1..LARGEST_CROP), the place (2,) of the old
+    picture, -1..1 right and down, that comes to its middle.
+    """
+    rows, columns = np.nonzero((alpha > 0.5) & (hidden < 0.5))
+    if len(rows) == 0:
+        return hidden, 1.0, np.zeros(2)
+    side = len(alpha)
+    low, high = np.array([columns.min(), rows.min()]), np.array([columns.max(), rows.max()]) + 1
+    middle = (low + high) / side - 1.0
+    zoom = float(np.clip(fill * side / max(high - low), 1.0, LARGEST_CROP))
+    half = side / 2 - 0.5  # the pixel coordinate of the picture's middle
+    move = np.array([[zoom, 0, 0], [0, zoom, 0]])
+    move[:, 2] = half - zoom * ((middle + 1) * side / 2 - 0.5)
+    return cv2.warpAffine(hidden, move, (side, side), flags=cv2.INTER_NEAREST,
+                          borderMode=cv2.BORDER_REPLICATE), zoom, middle  # fmt: skip
 
 
 def _condition(rng: Rng, rgba: np.ndarray, depth: np.ndarray, hidden: np.ndarray, variation: Variation) -> np.ndarray:
@@ -183,9 +214,10 @@ def _condition(rng: Rng, rgba: np.ndarray, depth: np.ndarray, hidden: np.ndarray
         known[:] = 0
     elif variation.depth_error:
         side = len(depth)
-        slope = rng.normal(size=2) * 0.5 * variation.depth_error
+        spread = variation.depth_error * rng.random()
+        slope = rng.normal(size=2) * 0.5 * spread
         y, x = (np.mgrid[:side, :side] + 0.5) / side * 2 - 1
-        depth = -FRONT + (depth + FRONT) * np.exp(rng.normal() * variation.depth_error) + slope[0] * x + slope[1] * y
+        depth = -FRONT + (depth + FRONT) * np.exp(rng.normal() * spread) + slope[0] * x + slope[1] * y
         depth = depth + rng.normal(size=depth.shape) * 0.02
     channels = [*np.moveaxis(rgb, -1, 0), alpha, hidden, np.clip(depth, -1.5, 1.5) * known, known]
     return np.stack(channels).astype(np.float32)

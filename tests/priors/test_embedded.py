@@ -19,7 +19,7 @@ from genmojo_core.priors.embedded import EmbeddedPrior
 from genmojo_core.priors.generator import FRONT, Variation, example
 from genmojo_core.priors.held_out import inflated, table
 from genmojo_core.priors.prior import Reference, ViewOffsets
-from genmojo_core.priors.tasks import DenoiserTask, VolumeTask, scores
+from genmojo_core.priors.tasks import RAYS, DenoiserTask, VolumeTask, _chosen_rays, _overlap, scores
 from genmojo_core.priors.test_set import frozen_examples
 from genmojo_core.priors.training import TrainingPlan, train
 from genmojo_core.priors.volume import FAR, NEAR, Rays, VolumeNet, picture_rays, render
@@ -187,6 +187,19 @@ def test_the_denoiser_starts_as_the_best_linear_filter_about_the_mean():
     clean = net(mean[:, :4] + 1.0, mean, torch.tensor([SPREAD, 4.0]))
     np.testing.assert_allclose((clean - mean[:, :4])[0].detach(), 0.5, atol=1e-5)
     assert (clean - mean[:, :4])[1].abs().max() < 0.01
+
+
+def test_the_volume_learns_from_rays_on_and_near_the_object_and_from_overlap():
+    alpha = torch.zeros(1, 2, 32, 32)
+    alpha[:, :, 12:20, 12:20] = 1.0
+    chosen = _chosen_rays(alpha, torch.Generator().manual_seed(0))
+    assert all(len(set(one.tolist())) == RAYS for one in chosen[0])
+    row, column = chosen // 32, chosen % 32
+    near = (row >= 10) & (row < 22) & (column >= 10) & (column < 22)
+    assert 0.3 < near.float().mean() < 0.5, "14 % of the pixels, four times as likely"
+    half = torch.tensor([1.0, 1.0, 0.0, 0.0]).repeat(1, 1, 50)
+    assert float(_overlap(half, half)) == 1.0 and float(_overlap(half, 1 - half)) < 0.01
+    assert float(_overlap(half, 0.9 * half + 0.05)) < float(_overlap(half, 0.95 * half + 0.02)) < 1.0
 
 
 def test_training_resumes_where_it_was(tmp_path, monkeypatch):

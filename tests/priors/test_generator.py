@@ -59,3 +59,25 @@ def test_equal_seeds_give_equal_examples_and_variations_show():
     assert any(c[4].any() for c in many), "some have an occluder"
     assert any(not c[6].any() for c in many), "some have no depth"
     assert all(not (c[3] * c[4]).any() for c in many), "what is hidden shows nothing"
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_hidden_object_is_cropped_around_what_shows_and_wanted_whole(seed):
+    """As clips are cropped (references.py): what shows fills the picture by the rule, the target is all of the object."""
+    one = example(np.random.default_rng(seed), np.zeros((1, 2)), variation=Variation(occluded=1.0))
+    alpha, hidden = one.condition[3], one.condition[4]
+    rows, columns = np.nonzero(alpha > 0.5)
+    assert max(np.ptp(rows), np.ptp(columns)) + 1 == pytest.approx(FILL * 64, abs=7)
+    assert not alpha[hidden > 0].any(), "nothing shows where something is in front"
+    whole = one.targets[0, 3].repeat(2, 0).repeat(2, 1)
+    assert whole[alpha > 0.5].min() > 0.2 and not whole[(alpha == 0) & (hidden == 0)].max() > 0.8
+    assert np.median(one.condition[5][one.condition[6] > 0]) == pytest.approx(-FRONT, abs=0.05)
+
+
+def test_some_objects_are_wanted_of_which_hardly_a_third_shows():
+    """Seen through holes and gaps or past an edge: references of clips may show no more (LEAST_VISIBLE)."""
+    shares = []
+    for seed in range(40):
+        one = example(np.random.default_rng(seed), np.zeros((1, 2)), variation=Variation(occluded=1.0))
+        shares.append(one.condition[3].sum() / 4 / one.targets[0, 3].sum())
+    assert min(shares) < 0.35 < 0.8 < max(shares)
