@@ -163,7 +163,7 @@ def _scaled(solids: Solids, factor: float, distance: float) -> Solids:
 
 
 def _occluder(rng: Rng, alpha: np.ndarray) -> np.ndarray:
-    """(C, C) 0 or 1: an edge, a bar, a ball, all but a hole, all but a gap; up to about three quarters of the object."""
+    """(C, C) 0 or 1: an edge, a bar, a ball, all but a hole, all but a gap: up to three quarters of the object."""
     side = len(alpha)
     y, x = (np.mgrid[:side, :side] + 0.5) / side * 2 - 1
     angle = rng.uniform(0, 2 * np.pi)

@@ -63,7 +63,7 @@ def test_equal_seeds_give_equal_examples_and_variations_show():
 
 @pytest.mark.parametrize("seed", range(12))
 def test_a_hidden_object_is_cropped_around_what_shows_and_wanted_whole(seed):
-    """As clips are cropped (references.py): what shows fills the picture by the rule, the target is all of the object."""
+    """As clips are cropped (references.py): what shows fills the picture, the target is the whole object."""
     one = example(np.random.default_rng(seed), np.zeros((1, 2)), variation=Variation(occluded=1.0))
     alpha, hidden = one.condition[3], one.condition[4]
     rows, columns = np.nonzero(alpha > 0.5)
