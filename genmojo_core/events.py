@@ -24,7 +24,7 @@ class Event:
 
 @dataclass(frozen=True)
 class StageStarted(Event):
-    """A stage begins: lift, motion, joint, refine ...; `steps` is how many steps it plans."""
+    """A stage begins: lift, motion, joint, refine ...; `steps` is how many steps it tells of one by one, or 0."""
 
     stage: str
     steps: int

@@ -58,7 +58,7 @@ def settle(run: Run) -> Iterator[Event]:
         return
     steps = run.config.settle_steps
     if not run.resume:
-        yield StageStarted(*run.clock.now(), "background", steps, "the background stands still and is fitted once")
+        yield StageStarted(*run.clock.now(), "background", 0, "the background stands still and is fitted once")
         end = run.clock.this_run() + SETTLE_SHARE * run.config.budget_seconds
         push_back(run.scene)
         plate = torch.from_numpy(run.clip.background.value.astype(np.float32) / 255.0)
