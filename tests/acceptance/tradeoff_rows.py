@@ -26,6 +26,7 @@ from genmojo_core.estimate.masks import Box
 from genmojo_core.measure import trials
 from genmojo_core.measure.pilot_run import piloted
 from genmojo_core.measure.scoring import Scorer
+from genmojo_core.store.safe import json_text
 
 CLIPS = {"crossing": "0:24", "gold-fish": "0:24", "blender-cross": "", "blender-trio": ""}
 NOISE = 0.2  # dB that two runs of the same settings may differ by
@@ -119,7 +120,7 @@ def _judged(bench: Bench, name: str, folder: Path) -> dict[str, float]:
     runs = trials.Bench(trials.Source(str(path), (0, 24), boxes))
     clip, _ = runs.clip(config)
     pilot = piloted(clip, decide.plan(clip, config), Scorer(str(path), (0, 24), clip).measured(), lambda _: None)
-    row.write_text(json.dumps(runs.run(trials.Trial("draft", "preset", "draft", config), lambda _: None)))
+    row.write_text(json_text(runs.run(trials.Trial("draft", "preset", "draft", config), lambda _: None)))
     told.write_text(json.dumps(asdict(pilot)))
     return asdict(pilot)
 
