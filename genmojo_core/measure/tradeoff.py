@@ -26,7 +26,8 @@ EARLY = 1  # moments that come before the parts: every short report has some of 
 EVERY = 8  # of the frames is held out in every trial
 LONGEST = 100_000  # joint steps: more than any time allows
 SIZES = (128, 176)  # pixels: draft at other sizes than its own
-TERMS = ("ssim", "alpha", "hull", "depth", "rigidity", "rotation", "local_scale", "smooth")  # losses, no effects
+# losses, no effects
+TERMS = ("ssim", "alpha", "gaps", "hull", "depth", "rigidity", "rotation", "local_scale", "smooth")
 BASE: dict[str, Any] = {
     "short_side": 128, "gaussians_per_object": 1000, "background_gaussians": 5000, "lift_steps": 20, "joint_steps": 80,
     "budget_seconds": 1e6,

@@ -68,6 +68,15 @@ def coverage_loss(rendering: Rendering, layout: Layout, target: FrameTargets, in
     return balanced((coverage - inside) ** 2, inside, target.seen, target.beyond)
 
 
+def gap_loss(rendering: Rendering, target: FrameTargets) -> Tensor:
+    """Mean squared transparency of the picture, in which a background leaves no gap.
+
+    Scenes are compared over black. Without this, dark lines are painted by letting it through, and whatever a scene is
+    shown over later is seen there.
+    """
+    return masked_mean((1.0 - rendering.alpha) ** 2, target.seen)
+
+
 def miss_loss(rendering: Rendering, layout: Layout, target: FrameTargets, centres: Tensor) -> Tensor:
     """Huber distance of an object's centre to its mask's, in 1 % of the diagonal, where it misses its mask altogether.
 

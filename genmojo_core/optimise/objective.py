@@ -151,6 +151,11 @@ class Objective:
         """True if SSIM is a part of the loss; without a background the frame's rest is empty and it is not."""
         return self.weights.ssim > 0 and self.scene.background is not None
 
+    @property
+    def fits_background(self) -> bool:
+        """True if the scene has a background that these losses form."""
+        return self.scene.background is not None
+
     def _data_terms(
         self, t: int, now: list[ObjectState], rendering: Rendering, target: FrameTargets, similar: Tensor
     ) -> dict[str, Tensor]:
@@ -159,6 +164,8 @@ class Objective:
         terms = data_terms(rendering, layout, target, wanted)
         if self.compares_windows:
             terms["ssim"] = losses.similarity_loss(similar, target)
+        if self.fits_background and self.weights.gaps > 0:
+            terms["gaps"] = losses.gap_loss(rendering, target)
         if now:
             centres = self._centres(t, now) - target.corner()
             terms["alpha"] = terms["alpha"] + losses.miss_loss(rendering, layout, target, centres)

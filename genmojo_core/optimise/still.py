@@ -123,6 +123,11 @@ class StillObjective(Objective):
         background.zero_grad(set_to_none=True)  # the last of its own fit
         background.requires_grad_(False)
 
+    @property
+    def fits_background(self) -> bool:
+        """False once it is held."""
+        return not self.held and super().fits_background
+
     def backdrop(self) -> Rendering:
         """The background alone, without light: features (H, W, 3), depth and alpha (H, W)."""
         if self._backdrop is None:
@@ -148,11 +153,13 @@ class StillObjective(Objective):
             for group in optimiser.param_groups:
                 group["lr"] = start_rate(group["name"], config.rates) * rate_factor(step / steps)
             optimiser.zero_grad(set_to_none=True)
-            difference = self._draw_background().features - plate
+            drawn = self._draw_background()
+            difference = drawn.features - plate
             error = 0.5 * difference.abs().mean() + 5.0 * (difference * difference).mean()
             if self.weights.ssim > 0:
                 similar = ssim_map((difference + plate)[None], plate[None]).mean()
                 error = self.weights.rgb * error + self.weights.ssim * (1.0 - similar)
+            error = error + self.weights.gaps * ((1.0 - drawn.alpha) ** 2).mean()
             error.backward()
             optimiser.step()
         return steps

@@ -21,7 +21,7 @@ from genmojo_core.optimise.run import Run
 from tests.optimise.small_runs import small_clip, small_run
 
 TERMS = {
-    "background": {"ssim"},  # structure is compared over whole pictures
+    "background": {"ssim", "gaps"},  # structure is compared over whole pictures, which it covers
     "non_rigid_motion": {"rigidity", "rotation", "local_scale", "delta_scale", "delta_color"},
     "appearance_change": {"delta_color"},
     "instance_labels": {"labels", "depth_order"},

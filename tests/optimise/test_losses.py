@@ -150,3 +150,16 @@ def test_gaussians_beside_their_silhouette_are_drawn_to_it_from_afar() -> None:
 
 def test_an_empty_mask_does_not_tell_where_an_object_is() -> None:
     assert losses.hull_map(target(), 2) is None
+
+
+def test_gaps_are_counted_where_the_picture_is_seen_and_close() -> None:
+    seen = torch.ones(H, W)
+    seen[:, 16:] = 0.0
+    alpha = torch.full((H, W), 0.5)
+    alpha[:, 16:] = 0.0
+    alpha.requires_grad_()
+    drawn = perfect(target())
+    loss = losses.gap_loss(Rendering(drawn.features, drawn.depth, alpha), target(seen))
+    loss.backward()
+    assert float(loss.detach()) == pytest.approx(0.25)
+    assert (alpha.grad[:, :16] < 0).all() and (alpha.grad[:, 16:] == 0).all()

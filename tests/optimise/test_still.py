@@ -7,6 +7,7 @@ import pytest
 import torch
 
 from genmojo_core.clip.clip import Clip
+from genmojo_core.config import LossWeights
 from genmojo_core.events import Finished, Preview, StageStarted
 from genmojo_core.optimise.objective import Objective
 from genmojo_core.optimise.run import Run
@@ -81,6 +82,12 @@ def test_the_background_is_fitted_to_its_plate_once_and_never_touched_again(clip
     assert isinstance(list(settled)[-1], Finished)
     assert torch.equal(before, settled.scene.background.dc.detach())
     assert all(p is not settled.scene.background.dc for g in settled.optimiser.param_groups for p in g["params"])
+
+
+def test_a_background_that_was_fitted_lets_less_through(clip: Clip) -> None:
+    runs = [ready(clip, settle_steps=80, weights=LossWeights(gaps=weight)) for weight in (0.0, 1.0)]
+    without, closed = (float(((1.0 - run.objective.backdrop().alpha) ** 2).mean()) for run in runs)
+    assert closed < 0.8 * without
 
 
 def test_where_camera_or_light_changes_nothing_is_held() -> None:
