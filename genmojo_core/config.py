@@ -103,6 +103,11 @@ class RunConfig:
 # draft: 224 px, because frames kept at 128 px and enlarged to 256 reach 24.6 dB at best on the clip "crossing".
 # Positions of rigid objects learn half as fast: else they take up in few steps what the poses are off by (blender-cross
 # 29.3 -> 30.0 dB and 0.71 -> 0.58 px, with 360 steps; the bending people of "crossing" would lose 0.2 dB by it).
+MOTION_SHARE = 0.4  # of the budget: most that the search for motion may take
+SETTLE_SHARE = 0.1  # of the budget: most that fitting a still background may take
+LIFT_SHARE = 0.08  # of a paced run's time after the motion
+OUTWARD_SHARE = 0.3  # of the joint stage, by which all frames take part
+
 PRESETS: dict[str, RunConfig] = {
     "draft": RunConfig(
         preset="draft", short_side=224, gaussians_per_object=2000, background_gaussians=14000, lift_steps=60,

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from genmojo_core.clip.clip import Clip
-from genmojo_core.config import RunConfig
+from genmojo_core.config import LIFT_SHARE, MOTION_SHARE, OUTWARD_SHARE, SETTLE_SHARE, RunConfig
 from genmojo_core.effects.difficulty import Difficulty, difficulty
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.effects.still import window_share
@@ -27,10 +27,6 @@ if TYPE_CHECKING:
     from genmojo_core.effects.machine import Machine
 
 REFERENCE_STEP_MS = 62.0  # CPU ms of a step of optimise/calibrate.py on the reference machine
-MOTION_SHARE = 0.4  # of the budget: most that the search for motion may take (optimise/run.py)
-OUTWARD_SHARE = 0.3  # of the joint steps: from here on all frames take part (optimise/schedule.py)
-SETTLE_SHARE = 0.1  # of the budget: most that fitting a still background may take (optimise/still.py)
-LIFT_SHARE = 0.08  # of a paced run's time after the motion (optimise/schedule.py)
 LIFT_WORTH = 0.3  # of a joint step: what a step of the static lift does for the result
 PILOT_SIDE, MEASURED = 160, 256  # pixels on the short side: of a pilot, and of what results are measured at
 _FEW = 4.0  # looks at a frame that do what the first motion does without any

@@ -68,13 +68,13 @@ def coverage_loss(rendering: Rendering, layout: Layout, target: FrameTargets, in
     return balanced((coverage - inside) ** 2, inside, target.seen, target.beyond)
 
 
-def gap_loss(rendering: Rendering, target: FrameTargets) -> Tensor:
-    """Mean squared transparency of the picture, in which a background leaves no gap.
+def gap_loss(alpha: Tensor, seen: Tensor) -> Tensor:  # (H, W) each
+    """Mean squared transparency of what is seen of a picture, in which a background leaves no gap.
 
     Scenes are compared over black. Without this, dark lines are painted by letting it through, and whatever a scene is
     shown over later is seen there.
     """
-    return masked_mean((1.0 - rendering.alpha) ** 2, target.seen)
+    return masked_mean((1.0 - alpha) ** 2, seen)
 
 
 def miss_loss(rendering: Rendering, layout: Layout, target: FrameTargets, centres: Tensor) -> Tensor:

@@ -165,7 +165,7 @@ class Objective:
         if self.compares_windows:
             terms["ssim"] = losses.similarity_loss(similar, target)
         if self.fits_background and self.weights.gaps > 0:
-            terms["gaps"] = losses.gap_loss(rendering, target)
+            terms["gaps"] = losses.gap_loss(rendering.alpha, target.seen)
         if now:
             centres = self._centres(t, now) - target.corner()
             terms["alpha"] = terms["alpha"] + losses.miss_loss(rendering, layout, target, centres)

@@ -11,11 +11,11 @@ from typing import Any, Literal
 
 import torch
 
-from genmojo_core.config import RunConfig, goal_of
+from genmojo_core.config import LIFT_SHARE, OUTWARD_SHARE, RunConfig, goal_of
 from genmojo_core.events import Step
 from genmojo_core.optimise.gain import StopRule
 from genmojo_core.optimise.objective import HeldOut, Objective, Outcome
-from genmojo_core.optimise.schedule import LIFT_SHARE, OUTWARD_SHARE, Pace, Stage
+from genmojo_core.optimise.schedule import Pace, Stage
 from genmojo_core.store.atomic import append_line, write_bytes
 from genmojo_core.store.safe import json_text
 

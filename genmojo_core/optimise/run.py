@@ -18,7 +18,7 @@ import torch
 
 from genmojo_core.clip.cameras import Cameras
 from genmojo_core.clip.clip import Clip
-from genmojo_core.config import RunConfig
+from genmojo_core.config import MOTION_SHARE, RunConfig
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.errors import GenmojoError
 from genmojo_core.events import (
@@ -68,7 +68,6 @@ from genmojo_core.store.scene_file import BakedScene
 
 SNAPSHOT_EVERY = 50  # steps
 PREVIEW_EVERY = 25  # steps
-MOTION_SHARE = 0.4  # of the budget
 PACE_EVERY = 5  # steps
 CURVE = "curve.jsonl"  # in the run folder: the curve, a row a line
 COST_STEP = 40  # steps of the joint stage after which effects' costs are measured, or a step later when resumed

@@ -10,15 +10,13 @@ from typing import Any
 import numpy as np
 import torch
 
-from genmojo_core.config import LearningRates, RunConfig
+from genmojo_core.config import OUTWARD_SHARE, LearningRates, RunConfig
 from genmojo_core.optimise.vector_adam import VectorAdamW
 from genmojo_core.scene.scene4d import Scene4D
 
 FINAL_RATE = 0.1  # of the first learning rate, reached at the end
 LOOKS = 50  # at every frame, after which learning rates fall
-OUTWARD_SHARE = 0.3  # of the joint stage, by which all frames take part
 VECTORS = ("means", "rigid_means", "bases")  # kinds of parameters whose rows are vectors in space
-LIFT_SHARE = 0.08  # of a paced run's time after the motion
 
 
 @dataclass(frozen=True)

@@ -17,10 +17,11 @@ import torch
 from torch import Tensor
 
 from genmojo_core.clip.clip import Clip
-from genmojo_core.config import RunConfig
+from genmojo_core.config import SETTLE_SHARE, RunConfig
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.effects.still import background_is_still
 from genmojo_core.events import Event, StageStarted
+from genmojo_core.optimise import losses
 from genmojo_core.optimise.adamw import AdamW
 from genmojo_core.optimise.objective import Objective, States
 from genmojo_core.optimise.schedule import rate_factor, start_rate
@@ -41,7 +42,6 @@ GRID = 8  # windows end on multiples of it, so that few of them are cut anew
 
 COVER = 2  # pixels round an object's Gaussians that they may cover
 BEHIND = 1.02  # of an object's depth: where the background begins
-SETTLE_SHARE = 0.1  # of the budget: most that fitting the background may take
 
 
 def objective_for(run: Run) -> type[Objective]:
@@ -159,7 +159,7 @@ class StillObjective(Objective):
             if self.weights.ssim > 0:
                 similar = ssim_map((difference + plate)[None], plate[None]).mean()
                 error = self.weights.rgb * error + self.weights.ssim * (1.0 - similar)
-            error = error + self.weights.gaps * ((1.0 - drawn.alpha) ** 2).mean()
+            error = error + self.weights.gaps * losses.gap_loss(drawn.alpha, torch.ones_like(drawn.alpha))
             error.backward()
             optimiser.step()
         return steps
