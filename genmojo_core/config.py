@@ -17,6 +17,7 @@ class LossWeights:
     rgb: float = 1.0  # L1 + SSIM over the frame, foreground and background balanced
     ssim: float = 0.2  # 1 - SSIM of colour, foreground and background balanced
     alpha: float = 0.3  # coverage against the union of masks, balanced
+    spill: float = 0.3  # coverage beside the masks, in areas of the masks, linear
     gaps: float = 1.0  # mean squared transparency of a picture with background
     labels: float = 0.1  # instance composition against the masks
     depth: float = 0.2  # relative depth error inside the masks

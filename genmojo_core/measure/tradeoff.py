@@ -27,7 +27,7 @@ EVERY = 8  # of the frames is held out in every trial
 LONGEST = 100_000  # joint steps: more than any time allows
 SIZES = (128, 176)  # pixels: draft at other sizes than its own
 # losses, no effects
-TERMS = ("ssim", "alpha", "gaps", "hull", "depth", "rigidity", "rotation", "local_scale", "smooth")
+TERMS = ("ssim", "alpha", "spill", "gaps", "hull", "depth", "rigidity", "rotation", "local_scale", "smooth")
 BASE: dict[str, Any] = {
     "short_side": 128, "gaussians_per_object": 1000, "background_gaussians": 5000, "lift_steps": 20, "joint_steps": 80,
     "budget_seconds": 1e6,

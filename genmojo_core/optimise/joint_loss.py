@@ -15,7 +15,7 @@ from genmojo_core.optimise.targets import FrameTargets
 from genmojo_core.render.rasterizer import Rendering
 from genmojo_core.scene.scene4d import Layout
 
-NAMES = ("rgb", "alpha", "labels", "depth", "flow")  # in the kernels' order
+NAMES = ("rgb", "alpha", "labels", "spill", "depth", "flow")  # in the kernels' order
 
 
 @dataclass(frozen=True)
@@ -28,13 +28,13 @@ class Wanted:
 
 
 def data_terms(rendering: Rendering, layout: Layout, target: FrameTargets, wanted: Wanted) -> dict[str, Tensor]:
-    """Colour, coverage, and what else is wanted, each a differentiable scalar; flow where the layout has it."""
+    """Colour, coverage, spill, and what else is wanted, each a differentiable scalar; flow where the layout has it."""
     features = rendering.features
     if not (features.device.type == "cpu" and features.dtype == torch.float32 and kernels_work()):
         return data_terms_torch(rendering, layout, target, wanted)
     values = _JointTerms.apply(features, rendering.depth, rendering.alpha, layout, target, wanted)
-    on = {"rgb": True, "alpha": True, "labels": wanted.labels, "depth": wanted.depth, "flow": layout.flow}
-    return {name: value for name, value in zip(NAMES, values.unbind(), strict=True) if on[name]}
+    on = {"labels": wanted.labels, "depth": wanted.depth, "flow": layout.flow}
+    return {name: value for name, value in zip(NAMES, values.unbind(), strict=True) if on.get(name, True)}
 
 
 def data_terms_torch(rendering: Rendering, layout: Layout, target: FrameTargets, wanted: Wanted) -> dict[str, Tensor]:
@@ -43,6 +43,7 @@ def data_terms_torch(rendering: Rendering, layout: Layout, target: FrameTargets,
     terms = {
         "rgb": losses.color_loss(rendering, target, inside, wanted.background),
         "alpha": losses.coverage_loss(rendering, layout, target, inside),
+        "spill": losses.spill_loss(rendering, layout, target),
     }
     if wanted.labels:
         terms["labels"] = losses.label_loss(rendering, layout, target)
@@ -69,7 +70,7 @@ def _packed(target: FrameTargets, layout: Layout, wanted: Wanted) -> tuple[Any, 
     weight = weight_in + weight_out
     color = weight if wanted.background else weight_in
     planes = torch.cat([target.rgb.permute(2, 0, 1), torch.stack([
-        target.labels.clamp(max=layout.labels).float(), color, weight])])  # fmt: skip
+        target.labels.clamp(max=layout.labels).float(), color, weight, losses.beside(target)])])  # fmt: skip
     lists = target.depth_pixels if wanted.depth else []
     pixels = torch.cat([*lists, torch.zeros(0, dtype=torch.int64)])
     flowing = target.flow_pixels if layout.flow else torch.zeros(0, dtype=torch.int64)
@@ -88,7 +89,7 @@ def _packed(target: FrameTargets, layout: Layout, wanted: Wanted) -> tuple[Any, 
 
 
 class _JointTerms(torch.autograd.Function):
-    """Glue to the kernels: (5,) values in the order of NAMES, 0 for a term that there is not."""
+    """Glue to the kernels: (6,) values in the order of NAMES, 0 for a term that there is not."""
 
     @staticmethod
     def forward(

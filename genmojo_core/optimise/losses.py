@@ -22,6 +22,7 @@ from genmojo_core.scene.scene4d import Layout
 
 REACHED = 1e-3  # coverage by which an object has reached a pixel
 HULL_MARGIN = 1.0  # pixels beyond a mask that are as good as on it
+LEAST_MASKS = 0.01  # of the seen pixels: spill counts per pixel of the masks, but of no fewer
 
 
 def masked_mean(values: Tensor, weight: Tensor, beyond: float = 0.0) -> Tensor:
@@ -66,6 +67,27 @@ def coverage_loss(rendering: Rendering, layout: Layout, target: FrameTargets, in
     """Squared error of the objects' joint coverage (their labels' sum) against the union of masks, balanced."""
     coverage = rendering.features[..., 3 : 3 + layout.labels].sum(-1)
     return balanced((coverage - inside) ** 2, inside, target.seen, target.beyond)
+
+
+def spill_loss(rendering: Rendering, layout: Layout, target: FrameTargets) -> Tensor:
+    """Coverage of the objects beside their masks, in areas of the masks, linear.
+
+    Squared coverage forgives what is thin: objects painted the shadows that they cast on things behind them with
+    veils of dark Gaussians, which hang in the air in every other view.
+    """
+    coverage = rendering.features[..., 3 : 3 + layout.labels].sum(-1)
+    return (coverage * beside(target).to(coverage)).sum()
+
+
+def beside(target: FrameTargets) -> Tensor:  # (H, W) float32
+    """What coverage weighs at a pixel: nothing on a mask, nor one pixel around it, where outlines are soft."""
+    if "beside" not in target.kept:
+        seen = target.seen.sum()
+        own = ((target.labels > 0) * target.seen).sum()
+        around = cv2.dilate((target.labels > 0).numpy().astype(np.uint8), np.ones((3, 3), np.uint8))
+        away = torch.from_numpy(around == 0) * target.seen
+        target.kept["beside"] = (away / torch.maximum(own, LEAST_MASKS * seen).clamp(min=1.0)).float()
+    return target.kept["beside"]
 
 
 def gap_loss(alpha: Tensor, seen: Tensor) -> Tensor:  # (H, W) each

@@ -18,6 +18,7 @@ from genmojo_core.priors.prior import Judgement, Reference, ViewOffsets
 from genmojo_core.priors.volume import VolumeNet, picture_rays, render
 
 NEAR_AZIMUTH = 15.0  # degrees: closer to the reference the frames themselves say more
+BODY = 0.65  # coverage from which a mean view shows the body; from half on, bodies come out too wide (prior.md)
 
 
 @dataclass(frozen=True)
@@ -123,14 +124,15 @@ def view_cameras(reference: Reference, views: ViewOffsets, distance: float) -> n
 
 
 def _solid(mean: Tensor) -> Tensor:
-    """(B, 4, h, w) premultiplied: fully covered where coverage is at least half, in the same colour, else empty."""
+    """(B, 4, h, w) premultiplied: fully covered from BODY of coverage on, in the same colour, else empty."""
     coverage = mean[:, 3:4]
-    return torch.where(coverage >= 0.5, mean / coverage.clamp(min=0.5), 0.0)
+    return torch.where(coverage >= BODY, mean / coverage.clamp(min=BODY), 0.0)
 
 
 def _confidence(mean: Tensor, views: ViewOffsets) -> Tensor:
     """(B, 1, h, w): places whose coverage is unsure count little; views near the reference count nothing."""
     azimuth = (views.azimuth.double() + 180.0) % 360.0 - 180.0
     turned = (azimuth.abs() + views.elevation.double().abs()) >= NEAR_AZIMUTH
-    sure = (2.0 * mean[:, 3:4] - 1.0) ** 2
+    beyond = mean[:, 3:4] - BODY
+    sure = (beyond / torch.where(beyond >= 0, 1.0 - BODY, BODY)) ** 2
     return sure * turned.to(mean.dtype)[:, None, None, None]

@@ -13,7 +13,7 @@ from genmojo_core.optimise.targets import FrameTargets
 from genmojo_core.render.rasterizer import Rendering
 from genmojo_core.scene.scene4d import Layout
 
-FACTORS = dict(zip(NAMES, (1.0, 0.7, 0.3, 2.0, 0.5), strict=True))
+FACTORS = dict(zip(NAMES, (1.0, 0.7, 0.3, 0.4, 2.0, 0.5), strict=True))
 # height, width, objects, measured depth, background, flow; widths that are no multiple of eight, a picture of one pixel
 CASES = [
     (40, 37, 3, True, True, True),
@@ -114,7 +114,7 @@ def test_void_pixels_neither_count_nor_pull() -> None:
 def test_a_number_that_is_none_is_not_hidden() -> None:
     target, layout, picture = case(24, 33, 2, scaled=True, flow=True)
     row, column = (int(i) for i in torch.nonzero(target.seen * (target.labels == 0))[0])
-    for channel, name in ((0, "rgb"), (3, "alpha")):
+    for channel, name in ((0, "rgb"), (3, "alpha"), (3, "spill")):
         spoiled = [picture[0].clone(), *picture[1:]]
         spoiled[0][row, column, channel] = float("nan")
         terms = data_terms(Rendering(*spoiled), layout, target, Wanted(background=True, labels=True, depth=True))

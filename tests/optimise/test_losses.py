@@ -1,5 +1,7 @@
 """Data terms: zero on a perfect render, finite and differentiable at the edges, blind to what is void or held out."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import torch
@@ -38,18 +40,19 @@ def all_terms(rendering: Rendering, t: FrameTargets) -> dict[str, torch.Tensor]:
         "rgb": losses.color_loss(rendering, t, inside, True),
         "alpha": losses.coverage_loss(rendering, LAYOUT, t, inside),
         "labels": losses.label_loss(rendering, LAYOUT, t),
+        "spill": losses.spill_loss(rendering, LAYOUT, t),
         "depth": losses.depth_loss(rendering, LAYOUT, t),
         "flow": losses.flow_loss(rendering, LAYOUT, t),
     }
 
 
-@pytest.mark.parametrize("name", ["rgb", "alpha", "labels", "depth", "flow"])
+@pytest.mark.parametrize("name", ["rgb", "alpha", "labels", "spill", "depth", "flow"])
 def test_a_perfect_render_costs_nothing(name: str) -> None:
     t = target()
     assert float(all_terms(perfect(t), t)[name].detach()) == pytest.approx(0.0, abs=1e-5)
 
 
-@pytest.mark.parametrize("name", ["rgb", "alpha", "labels", "depth", "flow"])
+@pytest.mark.parametrize("name", ["rgb", "alpha", "labels", "spill", "depth", "flow"])
 def test_pixels_that_are_not_seen_do_not_count(name: str) -> None:
     seen = torch.ones(H, W)
     seen[:, 16:] = 0.0
@@ -150,6 +153,27 @@ def test_gaussians_beside_their_silhouette_are_drawn_to_it_from_afar() -> None:
 
 def test_an_empty_mask_does_not_tell_where_an_object_is() -> None:
     assert losses.hull_map(target(), 2) is None
+
+
+def test_a_thin_veil_beside_the_masks_costs_its_area_and_their_rim_nothing() -> None:
+    """Objects fill 264 pixels. Coverage of .3 weighs three tenths of its area, not nine hundredths."""
+    t = target()
+    rendering = perfect(t)
+    features = rendering.features.detach().clone()
+    features[3, 3:15, 3] = 0.9  # the rim above object 1
+    features[20:22, 2:12, 4] = 0.3  # a veil of 20 pixels below it
+    features.requires_grad_()
+    loss = losses.spill_loss(Rendering(features, rendering.depth, rendering.alpha), LAYOUT, t)
+    loss.backward()
+    assert float(loss.detach()) == pytest.approx(0.3 * 20 / 264, rel=1e-5)
+    assert float(features.grad[21, 5, 4]) == pytest.approx(1 / 264, rel=1e-5)
+    assert not features.grad[3:14, 3:15].any()
+
+
+def test_spill_is_bounded_where_no_object_shows() -> None:
+    t = replace(target(), labels=torch.zeros(H, W, dtype=torch.int64))
+    weight = losses.beside(t)
+    assert float(weight.max()) == pytest.approx(1 / (losses.LEAST_MASKS * H * W), rel=1e-5)
 
 
 def test_gaps_are_counted_where_the_picture_is_seen_and_close() -> None:

@@ -15,7 +15,7 @@ from genmojo_core.priors.agreement import Seen, disagreement, training_percentil
 from genmojo_core.priors.batches import batch_of, make_batch
 from genmojo_core.priors.completion import surface_points, thinned, unseen_only
 from genmojo_core.priors.denoiser import SPREAD, Denoiser
-from genmojo_core.priors.embedded import EmbeddedPrior
+from genmojo_core.priors.embedded import BODY, EmbeddedPrior
 from genmojo_core.priors.generator import FRONT, Variation, example
 from genmojo_core.priors.held_out import inflated, table
 from genmojo_core.priors.prior import Reference, ViewOffsets
@@ -148,9 +148,9 @@ def test_confidence_is_nothing_near_the_reference_and_between_inside_and_outside
     judged = shipped.judge(torch.rand(2, 4, 32, 32), condition, views, 0.5, torch.Generator().manual_seed(0))
     assert not judged.confidence[0].any() and judged.confidence[1].max() > 0.5
     coverage = shipped.predict(condition, views)[1, 3]
-    unsure = (coverage - 0.5).abs() < 0.05
+    unsure = (coverage - BODY).abs() < 0.05
     assert not unsure.any() or judged.confidence[1, 0][unsure].max() < 0.05
-    assert torch.equal(judged.mean[1, 3], (coverage >= 0.5).float()), "objects are solid"
+    assert torch.equal(judged.mean[1, 3], (coverage >= BODY).float()), "objects are solid"
 
 
 def test_points_of_the_surface_lie_on_the_object(shipped):

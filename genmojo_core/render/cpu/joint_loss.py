@@ -4,10 +4,12 @@ Every pixel has a weight in each term's sum, which depends on the target alone: 
 n_out for a balanced mean. With d = colour - target, the objects' labels f_k, their sum F, and p the pixel's own label
 (1 - F, at least 0, on the background)
 
-    rgb = sum w (|d|_1 / 6 + 5 |d|^2 / 3),   alpha = sum w (F - inside)^2,   labels = sum w (-log p)
+    rgb = sum w (|d|_1 / 6 + 5 |d|^2 / 3),   alpha = sum w (F - inside)^2,   labels = sum w (-log p),
+    spill = sum v F
 
-where the logarithm goes on as its tangent below 0.01. Depth and flow look at the pixels of lists: at most all of the
-objects. Eight pixels are done at once; rows are summed on their own, so the bits do not depend on the threads.
+where v is what coverage beside the masks weighs, and the logarithm goes on as its tangent below 0.01. Depth and flow
+look at the pixels of lists: at most all of the objects. Eight pixels are done at once; rows are summed on their own,
+so the bits do not depend on the threads.
 """
 
 from __future__ import annotations
@@ -29,13 +31,13 @@ LANES = 8
 ROWS_PER_JOB = 32
 LOWEST = np.float32(LABEL_FLOOR)
 SIXTH, TWO_THIRDS = np.float32(1 / 6), np.float32(5 / 3)
-LABEL, COLOR_WEIGHT, WEIGHT = 3, 4, 5  # planes of the target after its three colours
+LABEL, COLOR_WEIGHT, WEIGHT, BESIDE = 3, 4, 5, 6  # planes of the target after its three colours
 
 
 class Target(NamedTuple):
     """One frame's targets. Rows are padded to `wide` pixels, a multiple of 8, with weight 0."""
 
-    planes: np.ndarray  # (6 * height * wide,) float32: colours, label (0 background), weight of colour, of the others
+    planes: np.ndarray  # (7 * height * wide,) float32: colours, label (0 background), weights: colour, others, spill
     depth_pixels: np.ndarray  # (P,) int64 places in a plane, object by object
     depth_starts: np.ndarray  # (K + 1,) int64
     depth: np.ndarray  # (P,) float32
@@ -77,9 +79,9 @@ def padded(planes: np.ndarray, wide: int) -> np.ndarray:
 
 
 def joint_terms(picture: Picture, target: Target, terms: Terms) -> tuple[np.ndarray, int]:
-    """(5,) float64: rgb, alpha, labels, depth, flow; and the number of pixels whose flow was compared."""
-    sums = np.zeros((terms.height, 3))
-    _walk_rows(picture, target, terms, np.zeros(3, np.float32), sums, NOTHING)
+    """(6,) float64: rgb, alpha, labels, spill, depth, flow; and the number of pixels whose flow was compared."""
+    sums = np.zeros((terms.height, 4))
+    _walk_rows(picture, target, terms, np.zeros(4, np.float32), sums, NOTHING)
     objects = len(target.depth_starts) - 1
     values, slopes = np.zeros(max(objects, 1)), Picture(NOTHING, NOTHING, NOTHING)
     run_jobs(lambda k: compare_depth(k, picture, target, terms, 0.0, values, slopes), objects)
@@ -88,24 +90,24 @@ def joint_terms(picture: Picture, target: Target, terms: Terms) -> tuple[np.ndar
 
 
 def joint_slopes(picture: Picture, target: Target, terms: Terms, factors: np.ndarray, flowing: int) -> Picture:
-    """Gradient of factors (5,) times `joint_terms`, whose second result is `flowing`."""
+    """Gradient of factors (6,) times `joint_terms`, whose second result is `flowing`."""
     slopes = Picture(take(picture.features.shape), take(picture.depth.shape), take(picture.alpha.shape))
     slopes.depth.fill(0)
     slopes.alpha.fill(0)
-    _walk_rows(picture, target, terms, factors[:3].astype(np.float32), np.zeros((terms.height, 3)), slopes.features)
+    _walk_rows(picture, target, terms, factors[:4].astype(np.float32), np.zeros((terms.height, 4)), slopes.features)
     objects = len(target.depth_starts) - 1
-    share, values = float(factors[3]) / max(objects, 1), np.zeros(max(objects, 1))
+    share, values = float(factors[4]) / max(objects, 1), np.zeros(max(objects, 1))
     run_jobs(lambda k: compare_depth(k, picture, target, terms, share, values, slopes), objects)
-    compare_flow(picture.features, target, terms, float(factors[4]) / max(flowing, 1), slopes.features)
+    compare_flow(picture.features, target, terms, float(factors[5]) / max(flowing, 1), slopes.features)
     return slopes
 
 
 def warm_up() -> None:
     """Compile the kernels on almost nothing."""
-    pixels, places = np.zeros(6 * LANES, np.float32), np.zeros(1, np.int64)
+    pixels, places = np.zeros(7 * LANES, np.float32), np.zeros(1, np.int64)
     target = Target(pixels, places, np.array([0, 1]), pixels[:1], places, np.zeros((1, 2), np.float32))
     picture = Picture(pixels, pixels[:LANES], pixels[:LANES])
-    joint_slopes(picture, target, Terms(1, LANES, 1, True, True, True, 1.0), np.zeros(5), 1)
+    joint_slopes(picture, target, Terms(1, LANES, 1, True, True, True, 1.0), np.zeros(6), 1)
 
 
 def _walk_rows(
@@ -140,9 +142,10 @@ def color_terms(
 def label_terms(
     at: int, plane: int, features: np.ndarray, target: np.ndarray, terms: Terms, slopes: np.ndarray, factors: np.ndarray
 ) -> tuple:
-    """Eight pixels' error of coverage and of labels (Float8, Float8); their gradient where it is wanted."""
+    """Eight pixels' error of coverage and of labels, and spill (Float8 each); their gradient where it is wanted."""
     zero, one = splat8(np.float32(0)), splat8(np.float32(1))
     weight, label = load8(target, WEIGHT * plane + at), load8(target, LABEL * plane + at)
+    beside = load8(target, BESIDE * plane + at)
     covered, own = zero, zero
     for k in range(terms.labels):
         f = load8(features, (3 + k) * plane + at)
@@ -158,14 +161,14 @@ def label_terms(
     if terms.compares_labels:
         surprise = (low - own) * pull - log_8(low)
     if slopes.size > 0:
-        joint = weight * off * (factors[1] + factors[1])
+        joint = fma(beside, factors[3], weight * off * (factors[1] + factors[1]))
         pull = weight * pull * factors[2]
         others = joint + select8(inside, zero, select8(left >= zero, pull, zero))
         for k in range(terms.labels):
             store8(slopes, (3 + k) * plane + at, others - select8(label == np.float32(k + 1), pull, zero))
         for k in range(3 + terms.labels, features.size // plane):
             store8(slopes, k * plane + at, zero)
-    return weight * off * off, weight * surprise
+    return weight * off * off, weight * surprise, beside * covered
 
 
 @kernel
@@ -179,26 +182,27 @@ def compare_rows(
     slopes: np.ndarray,
     scratch: np.ndarray,
 ) -> None:
-    """Sums of rgb, alpha and labels of rows span[0]..span[1]-1; their gradient times `factors` where `slopes` has room.
+    """Sums of rgb, alpha, labels and spill of rows span[0]..span[1]-1.
 
-    scratch: 64 float32 of any content.
+    Their gradient times `factors` where `slopes` has room. scratch: 64 float32 of any content.
     """
     zero = splat8(np.float32(0))
     plane = terms.height * terms.wide
     for i in range(0, 8 * LANES, LANES):
         store8(scratch, i, zero)
     for row in range(span[0], span[1]):
-        rgb, alpha, labels = zero, zero, zero
+        rgb, alpha, labels, spill = zero, zero, zero, zero
         for at in range(row * terms.wide, (row + 1) * terms.wide, LANES):
             rgb = rgb + color_terms(at, plane, features, target, slopes, factors[0])
-            off, surprise = label_terms(at, plane, features, target, terms, slopes, factors)
-            alpha, labels = alpha + off, labels + surprise
+            off, surprise, spilt = label_terms(at, plane, features, target, terms, slopes, factors)
+            alpha, labels, spill = alpha + off, labels + surprise, spill + spilt
         store8(scratch, 0, rgb)
         store8(scratch, LANES, alpha)
         store8(scratch, 2 * LANES, labels)
+        store8(scratch, 3 * LANES, spill)
         total = sum_rows(scratch, 0)
         store8(scratch, 0, total)
-        for i in range(3):
+        for i in range(4):
             sums[row, i] = scratch[i]
 
 
