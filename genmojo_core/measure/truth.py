@@ -23,6 +23,7 @@ from genmojo_core.tracks.metrics import select, space_metrics, track_metrics
 from genmojo_core.tracks.model import PointTracks
 
 _POSE_TOLERANCE = 1e-3
+OBJECT_FIGURES = ("tracks", "ate", "mte", "hidden", "oa")
 _SILHOUETTE = 0.5  # alpha from which a pixel belongs to a shape
 
 
@@ -46,11 +47,12 @@ def find_truth(clip_path: str | Path) -> Path | None:
     return path if path.is_file() else None
 
 
-def track_scores(scene: BakedScene, clip: Clip, truth_path: Path) -> dict[str, float]:
+def track_scores(scene: BakedScene, clip: Clip, truth_path: Path) -> dict[str, Any]:
     """2D and 3D track errors of the scene's own tracks, for queries visible in the scene's first frame.
 
     The scene alone is asked; truth gives only the queries and the score. 3D errors are taken after one similarity fit
-    if depth or cameras were not given to the scene. Raises GenmojoError if the truth does not fit the clip.
+    if depth or cameras were not given to the scene. "track_objects" has OBJECT_FIGURES by the id of the object, as one
+    that is hard to follow says little of the others. Raises GenmojoError if the truth does not fit the clip.
     """
     truth = truth_tracks(scene, clip, truth_path)
     first = truth.visible[:, 0]
@@ -58,10 +60,17 @@ def track_scores(scene: BakedScene, clip: Clip, truth_path: Path) -> dict[str, f
         return {}
     truth = select(truth, first)
     ours = scene_tracker.track(scene, np.zeros(len(truth.xy), np.int64), truth.xy[:, 0])
-    figures = track_metrics(ours, truth, np.zeros(len(truth.xy), np.int64))
+    figures: dict[str, Any] = dict(track_metrics(ours, truth, np.zeros(len(truth.xy), np.int64)))
+    figures["track_objects"] = {str(int(k)): _of_object(ours, truth, truth.object == k) for k in np.unique(truth.object)}
     if truth.xyz is not None and ours.xyz is not None:
         figures |= space_metrics(ours.xyz, truth.xyz, not shares_world(scene, clip), truth.object)
     return figures
+
+
+def _of_object(ours: PointTracks, truth: PointTracks, rows: np.ndarray) -> dict[str, float]:
+    """OBJECT_FIGURES of some tracks that were asked for in the first frame."""
+    found = track_metrics(select(ours, rows), select(truth, rows), np.zeros(int(rows.sum()), np.int64))
+    return {key: found[key] for key in OBJECT_FIGURES if key in found}
 
 
 def truth_tracks(scene: BakedScene, clip: Clip, truth_path: Path) -> PointTracks:

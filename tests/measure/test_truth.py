@@ -158,6 +158,9 @@ def test_tracks_of_itself(scene, clip, truth_path):
     found = truth.track_scores(scene, clip, truth_path)
     assert found["tracks"] == 2 and found["ate"] < 1e-3 and found["aj"] == 100 and found["ate_3d"] < 1e-4
     assert {"ate", "mte", "a_epe", "m_epe", "aj", "delta", "oa", "ate_3d"} <= set(found)
+    by_object = found["track_objects"]
+    assert sum(one["tracks"] for one in by_object.values()) == 2
+    assert all(one["ate"] < 1e-3 and one["oa"] == 100 for one in by_object.values())
 
 
 def test_truth_of_another_length_is_refused(scene, clip, truth_path):
