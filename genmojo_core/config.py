@@ -101,14 +101,15 @@ class RunConfig:
         return self.joint_steps if bends or not self.rigid_steps else self.rigid_steps
 
 
-# draft: 224 px, because frames kept at 128 px and enlarged to 256 reach 24.6 dB at best on the clip "crossing".
-# Positions of rigid objects learn half as fast: else they take up in few steps what the poses are off by (blender-cross
-# 29.3 -> 30.0 dB and 0.71 -> 0.58 px, with 360 steps; the bending people of "crossing" would lose 0.2 dB by it).
+MEASURED_SIDE = 256  # pixels on the short side at which scenes are measured, whatever size was optimised
 MOTION_SHARE = 0.4  # of the budget: most that the search for motion may take
 SETTLE_SHARE = 0.1  # of the budget: most that fitting a still background may take
 LIFT_SHARE = 0.08  # of a paced run's time after the motion
 OUTWARD_SHARE = 0.3  # of the joint stage, by which all frames take part
 
+# draft: 224 px, because frames kept at 128 px and enlarged to 256 reach 24.6 dB at best on the clip "crossing".
+# Positions of rigid objects learn half as fast: else they take up in few steps what the poses are off by (blender-cross
+# 29.3 -> 30.0 dB and 0.71 -> 0.58 px, with 360 steps; the bending people of "crossing" would lose 0.2 dB by it).
 PRESETS: dict[str, RunConfig] = {
     "draft": RunConfig(
         preset="draft", short_side=224, gaussians_per_object=2000, background_gaussians=14000, lift_steps=60,

@@ -49,10 +49,11 @@ def evaluate(scene: Any, clip_path: str, sheet_path: str | None = None) -> dict[
     Raises GenmojoError if the clip is not the scene's own or the sheet cannot be written.
     """
     from genmojo_core.clip import folders
+    from genmojo_core.config import MEASURED_SIDE
     from genmojo_core.measure import sheet, truth
-    from genmojo_core.measure.reconstruction import SHORT_SIDE, reconstruction
+    from genmojo_core.measure.reconstruction import reconstruction
 
-    clip = folders.read(clip_path, short_side=SHORT_SIDE)
+    clip = folders.read(clip_path, short_side=MEASURED_SIDE)
     result: dict[str, Any] = {"clip": clip.name, "frames": len(scene), "gaussians": len(scene.xyz)}
     with progress("rendering every frame") as tell:
         result |= reconstruction(scene, clip, tell)

@@ -13,13 +13,12 @@ from __future__ import annotations
 from typing import Any
 
 from genmojo_core.clip.clip import Clip
-from genmojo_core.config import RunConfig, preset
+from genmojo_core.config import MEASURED_SIDE, RunConfig, preset
 
 AUTO_SECONDS = 300.0  # where no budget is given
 LONGEST = 100_000  # joint steps: more than any time allows
 _ANCHOR = 30.0  # seconds on the reference machine at which the first values hold
 _SIDE, _SIDE_POWER = 180.0, 0.27  # pixels of the short side of a square clip
-_MEASURED = 256  # pixels at which scenes are measured: more pays only once there is time to spare
 _TOGETHER, _ENOUGH = 2.0, 60.0  # so many objects have all they may within so many seconds; more of them share that
 _LONG, _VERY_LONG = 240.0, 900.0  # seconds from which a prior, and more pixels than 256, are worth their time
 
@@ -37,7 +36,7 @@ def for_budget(seconds: float, clip: Clip, speed: float = 1.0, **changes: Any) -
     time = max(seconds * speed, 1.0)
     width, height = clip.source_size
     aspect = max(width, height) / max(min(width, height), 1)
-    most = _MEASURED if time < _VERY_LONG else 2 * _MEASURED
+    most = MEASURED_SIDE if time < _VERY_LONG else 2 * MEASURED_SIDE  # more pays only once there is time to spare
     share = min(1.0, _TOGETHER * max(time / _ENOUGH, 1.0) ** 0.5 / max(clip.objects, 1))
     side = _SIDE * (time / _ANCHOR) ** _SIDE_POWER / aspect**0.25
     chosen: dict[str, Any] = {

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from genmojo_core.clip.clip import Clip
-from genmojo_core.config import LIFT_SHARE, MOTION_SHARE, OUTWARD_SHARE, SETTLE_SHARE, RunConfig
+from genmojo_core.config import LIFT_SHARE, MEASURED_SIDE, MOTION_SHARE, OUTWARD_SHARE, SETTLE_SHARE, RunConfig
 from genmojo_core.effects.difficulty import Difficulty, difficulty
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.effects.still import window_share
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 REFERENCE_STEP_MS = 62.0  # CPU ms of a step of optimise/calibrate.py on the reference machine
 LIFT_WORTH = 0.3  # of a joint step: what a step of the static lift does for the result
-PILOT_SIDE, MEASURED = 160, 256  # pixels on the short side: of a pilot, and of what results are measured at
+PILOT_SIDE = 160  # pixels on the short side
 _FEW = 4.0  # looks at a frame that do what the first motion does without any
 START_SHARE = 0.8  # of the allowed Gaussians that there are on average over a run
 STEP_NAMES = ("views x pixels x channels, millions", "views x Gaussians, thousands", "views x bending Gaussians, "
@@ -175,7 +175,7 @@ def decibel_features(clip: Difficulty, work: Work, steps: tuple[float, float], p
         steps: of the lift and of the joint stage. per_object: Gaussians allowed.
     """
     shown = max((LIFT_WORTH * steps[0] + steps[1]) * work.views / work.frames, 0.5)
-    side = side_of(work) / MEASURED
+    side = side_of(work) / MEASURED_SIDE
     return np.array([1.0, clip.motion, math.log(shown), math.log(min(side, 1.0)), math.log(per_object)])
 
 
@@ -195,7 +195,7 @@ def ceiling(clip: Difficulty, side: float) -> float:
     """dB that the frames themselves reach with `side` pixels on the short side; results are measured at 256."""
     if clip.coarse is None or clip.fine is None:
         raise ValueError("no pilot of this clip has run")
-    share = math.log(side / PILOT_SIDE) / math.log(MEASURED / PILOT_SIDE)
+    share = math.log(side / PILOT_SIDE) / math.log(MEASURED_SIDE / PILOT_SIDE)
     return clip.coarse + (clip.fine - clip.coarse) * min(share, 1.0)
 
 

@@ -14,13 +14,13 @@ import numpy as np
 
 from genmojo_core.clip import folders
 from genmojo_core.clip.clip import Clip
-from genmojo_core.config import RunConfig
+from genmojo_core.config import MEASURED_SIDE, RunConfig
 from genmojo_core.effects import decide
 from genmojo_core.errors import GenmojoError
 from genmojo_core.estimate.complete import complete
 from genmojo_core.events import EffectChanged, Event, Failed, Finished
 from genmojo_core.measure import sources, truth
-from genmojo_core.measure.reconstruction import SHORT_SIDE, reconstruction
+from genmojo_core.measure.reconstruction import reconstruction
 from genmojo_core.measure.scoring import novel_figures
 from genmojo_core.optimise.methods import prepared
 from genmojo_core.optimise.run import Run
@@ -135,7 +135,7 @@ def run_variant(
 def measured(scene_path: Path, clip_path: str) -> dict[str, float]:
     """Reconstruction, and against truth beside the clip: tracks and novel views in three groups of angles."""
     scene = scene_hdf5.read(scene_path)
-    clip = folders.read(clip_path, short_side=SHORT_SIDE)
+    clip = folders.read(clip_path, short_side=MEASURED_SIDE)
     figures: dict[str, Any] = dict(reconstruction(scene, clip))
     truth_path = truth.find_truth(clip_path)
     if truth_path is not None:

@@ -11,6 +11,7 @@ import numpy as np
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.clip.cut import cut
+from genmojo_core.config import MEASURED_SIDE
 from genmojo_core.conventions import DILATION
 from genmojo_core.effects import pilot
 from genmojo_core.effects.forecast import PILOT_SIDE
@@ -21,7 +22,7 @@ from genmojo_core.errors import GenmojoError
 from genmojo_core.estimate.complete import complete
 from genmojo_core.events import Failed, Step
 from genmojo_core.measure.images import psnr
-from genmojo_core.measure.reconstruction import SHORT_SIDE, foreground_of, reconstruction
+from genmojo_core.measure.reconstruction import foreground_of, reconstruction
 from genmojo_core.optimise.run import Run
 from genmojo_core.store.atomic import write_bytes
 
@@ -45,7 +46,7 @@ def piloted(clip: Clip, plan: EffectPlan, measured: Clip, progress: Callable[[fl
         if isinstance(event, Step):
             progress(event.progress)
     reached = reconstruction(run.bake(), measured)["psnr"]
-    found = Pilot(reached, blurred_psnr(measured, PILOT_SIDE), blurred_psnr(measured, SHORT_SIDE))
+    found = Pilot(reached, blurred_psnr(measured, PILOT_SIDE), blurred_psnr(measured, MEASURED_SIDE))
     if not math.isfinite(found.reached + found.coarse):
         raise GenmojoError("empty", "shows no object in its middle frames", clip.path)
     keep(clip, plan, found)

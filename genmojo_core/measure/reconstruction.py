@@ -9,12 +9,11 @@ import numpy as np
 
 from genmojo_core.clip import folders
 from genmojo_core.clip.clip import Clip
+from genmojo_core.config import MEASURED_SIDE
 from genmojo_core.errors import GenmojoError
 from genmojo_core.measure.images import instance_ious, psnr, ssim
 from genmojo_core.measure.views import Look, Picture, render_frame
 from genmojo_core.store.scene_file import BakedScene
-
-SHORT_SIDE = 256  # pixels at which everything is measured, whatever size was optimised
 
 
 def reconstruction(scene: BakedScene, clip: Clip, progress: Callable[[float], None] | None = None) -> dict[str, float]:
@@ -58,8 +57,8 @@ def as_measured(clip: Clip, source: str, frames: tuple[int, int | None] | None) 
     Args:
         source, frames: the path and positions that it was read from. Raises GenmojoError as reading it.
     """
-    if min(clip.size) != SHORT_SIDE and Path(source).exists():
-        again = folders.read(source, frames=frames, short_side=SHORT_SIDE, ignore=folders.CHANNELS)
+    if min(clip.size) != MEASURED_SIDE and Path(source).exists():
+        again = folders.read(source, frames=frames, short_side=MEASURED_SIDE, ignore=folders.CHANNELS)
         clip = again if again.masks is not None else clip
     return clip
 

@@ -10,8 +10,9 @@ import numpy as np
 
 from genmojo_core.clip import folders, resize
 from genmojo_core.clip.clip import Clip
+from genmojo_core.config import MEASURED_SIDE
 from genmojo_core.measure import truth
-from genmojo_core.measure.reconstruction import SHORT_SIDE, reconstruction
+from genmojo_core.measure.reconstruction import reconstruction
 from genmojo_core.optimise.run import Run
 from genmojo_core.store.scene_file import BakedScene
 
@@ -61,7 +62,7 @@ class Scorer:
     def measured(self) -> Clip:
         """The clip at the size to measure at. Raises GenmojoError as reading it."""
         if self._clip is None:
-            clip = folders.read(self.path, frames=self.frames, short_side=SHORT_SIDE)
+            clip = folders.read(self.path, frames=self.frames, short_side=MEASURED_SIDE)
             self._clip = clip if clip.masks is not None or self.completed is None else _masked(clip, self.completed)
         return self._clip
 

@@ -61,7 +61,8 @@ def track_scores(scene: BakedScene, clip: Clip, truth_path: Path) -> dict[str, A
     truth = select(truth, first)
     ours = scene_tracker.track(scene, np.zeros(len(truth.xy), np.int64), truth.xy[:, 0])
     figures: dict[str, Any] = dict(track_metrics(ours, truth, np.zeros(len(truth.xy), np.int64)))
-    figures["track_objects"] = {str(int(k)): _of_object(ours, truth, truth.object == k) for k in np.unique(truth.object)}
+    ids = np.unique(truth.object).tolist()
+    figures["track_objects"] = {str(k): _of_object(ours, truth, truth.object == k) for k in ids}
     if truth.xyz is not None and ours.xyz is not None:
         figures |= space_metrics(ours.xyz, truth.xyz, not shares_world(scene, clip), truth.object)
     return figures

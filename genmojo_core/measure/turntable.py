@@ -8,12 +8,12 @@ from typing import Any
 import cv2
 import numpy as np
 
+from genmojo_core.config import MEASURED_SIDE
 from genmojo_core.errors import GenmojoError
 from genmojo_core.measure.views import Look, Picture, orbit_target, orbit_view, render_frame, short_side_size
 from genmojo_core.store.scene_file import BakedScene
 
 AZIMUTHS = (0.0, 30.0, -30.0, 90.0, -90.0, 180.0)  # degrees
-SHORT_SIDE = 256  # pixels at which it is looked at
 SOLID = 0.9  # coverage from which a pixel's colour is compared
 COVERED = 0.5  # coverage below which a pixel inside an outline is a hole
 SHOWS = 0.5  # opacity from which a Gaussian counts as a part of the body
@@ -68,7 +68,7 @@ def thickness(scene: BakedScene) -> dict[str, float]:
 def _picture(scene: BakedScene, t: int, azimuth: float, target: np.ndarray) -> Picture:
     """Frame t with the flow to the next, as its orbit camera sees it."""
     after = min(t + 1, len(scene) - 1)
-    size = short_side_size(scene.cameras.size, SHORT_SIDE)
+    size = short_side_size(scene.cameras.size, MEASURED_SIDE)
     now, then = (orbit_view(scene, f, 0.0, azimuth, target).resized(*size) for f in (t, after))
     return render_frame(scene, t, now, Look(objects_only=True, flow_to=then))
 

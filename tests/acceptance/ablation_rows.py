@@ -31,7 +31,7 @@ def tracks(name: str) -> Callable[[Bench], list[Check]]:
             Check("hidden", got["hidden"], hidden, at_most=True),
             Check("oa", got["oa"], OA),
             *(Check(key, got.get(key)) for key in ("ate_3d", "ate_3d_percent", "aj", "delta", "psnr")),
-            *(Check(f"object {k}: {key}", one[key]) for k, one in got["track_objects"].items() for key in ("ate", "oa")),
+            *(Check(f"object {k}: {of}", one[of]) for k, one in got["track_objects"].items() for of in ("ate", "oa")),
         ]
 
     return row
