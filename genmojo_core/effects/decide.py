@@ -28,7 +28,8 @@ class Rule:
 
     Args:
         value: the number, in `unit`. origin: where the threshold comes from; reason: sentences about the number, both
-        by key (texts.py). lacking: why it cannot be switched on at all; empty if it can.
+        by key (texts.py). lacking: why it cannot be switched on at all; empty if it can. spared: ids of objects that
+        do without it.
     """
 
     value: float
@@ -37,6 +38,7 @@ class Rule:
     origin: Said
     reason: Sequence[Said]
     lacking: str = ""
+    spared: tuple[int, ...] = ()
 
 
 def plan(clip: Clip, config: RunConfig, overrides: Mapping[str, bool] | None = None) -> EffectPlan:
@@ -60,9 +62,11 @@ def plan(clip: Clip, config: RunConfig, overrides: Mapping[str, bool] | None = N
         ms, mb = predict(name, sizes, config)
         on = rule.value >= rule.threshold and not rule.lacking
         effect = Effect(cast(EffectName, name), on, rule.value, rule.unit, rule.threshold, sentence([rule.origin]),
-                        sentence(rule.reason), ms, mb, said=tuple(rule.reason), origin_said=(rule.origin,))  # fmt: skip
+                        sentence(rule.reason), ms, mb, said=tuple(rule.reason), origin_said=(rule.origin,),
+                        spared=rule.spared)  # fmt: skip
         wanted = overrides.get(name, None if rule.lacking else overrides.get(ALL))
         effects.append(_overridden(effect, wanted, rule.lacking))
+    effects = [sparing(effect, effect.spared, clip.objects) for effect in effects]
     return EffectPlan(tuple(with_bases(effect, config.motion_bases, effect.evidence) for effect in effects))
 
 
@@ -101,14 +105,20 @@ def _check_names(overrides: Mapping[str, bool]) -> None:
 
 
 def _overridden(effect: Effect, wanted: bool | None, lacking: str) -> Effect:
-    """The effect as the user wants it; what cannot be done cannot be switched on."""
+    """The effect as the user wants it, then for all objects; what cannot be done cannot be switched on."""
     if wanted is None:
         return effect
     if wanted and lacking:
         raise GenmojoError("argument", f"'{effect.name}' cannot be switched on: {lacking}", "--effects",
                            f"leave out +{effect.name}")  # fmt: skip
     said: tuple[Said, ...] = (("switched_on" if wanted else "switched_off", {}), *effect.said)
-    return replace(effect, on=wanted, overridden=True, reason=sentence(said), said=said)
+    return replace(effect, on=wanted, overridden=True, reason=sentence(said), said=said, spared=())
+
+
+def sparing(effect: Effect, spared: tuple[int, ...], objects: int) -> Effect:
+    """An effect that `spared` of the clip's objects do without, and what it costs for the others."""
+    share = 1.0 - len(spared) / max(objects, 1)
+    return replace(effect, spared=spared, ms_per_step=share * effect.ms_per_step, mb=share * effect.mb)
 
 
 def with_bases(effect: Effect, most: int, amount: float) -> Effect:
@@ -157,11 +167,15 @@ def _non_rigid_motion(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule
     worst = max(range(len(scores)), key=scores.__getitem__, default=0)
     value = scores[worst] if scores else 0.0
     name = clip.object_names[worst] if worst < len(clip.object_names) else str(worst + 1)
-    said: Said = ("bends", {"name": name, "times": value}) if value >= 1 else ("rigid", {})
+    reason: list[Said] = [("bends", {"name": name, "times": value}) if value >= 1 else ("rigid", {})]
+    spared = [k for k, one in enumerate(evidence.bending) if value >= 1 and one.surely_rigid]
+    if spared:
+        reason.append(("stay_rigid", {"names": ", ".join(f"'{clip.object_names[k]}'" for k in spared)}))
     limits = {"mode": 100 * RIGID_MODE, "outline": 100 * RIGID_OUTLINE, "stretch": 100 * RIGID_STRETCH,
               "lean": RIGID_LEAN}  # fmt: skip
-    return Rule(value, "x rigid", 1.0, ("origin_rigid", limits), [said],
-                "" if len(clip) > 1 else "a single frame has no motion")  # fmt: skip
+    return Rule(value, "x rigid", 1.0, ("origin_rigid", limits), reason,
+                "" if len(clip) > 1 else "a single frame has no motion",
+                tuple(int(clip.object_ids[k]) for k in spared))  # fmt: skip
 
 
 def _appearance_change(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule:

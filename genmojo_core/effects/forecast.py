@@ -54,7 +54,7 @@ class Work:
         channels: of a rendering. moving: Gaussians of all objects. total: with the background's. bends: objects have
         deformation fields. prior: objects shown to the prior per step. aspect: long side by short side.
         window: share of the pixels that a step looks at. settled: Gaussians of a background that stands still and is
-        fitted once (optimise/still.py); they are not in `total`.
+        fitted once (optimise/still.py); they are not in `total`. rigid: objects that do not bend although others do.
     """
 
     frames: int
@@ -69,6 +69,7 @@ class Work:
     aspect: float
     window: float = 1.0
     settled: float = 0.0
+    rigid: int = 0
 
 
 @dataclass(frozen=True)
@@ -136,10 +137,12 @@ def work_of(
     on: Collection[str],
     config: RunConfig,
     window: float | None = None,
+    rigid: int = 0,
 ) -> Work:
     """The work of a step for a clip of (width, height) pixels as optimised, with the effects that are on.
 
     window: `window_share`: a step looks at no more where the background stands still; None: at whole frames always.
+    rigid: objects that the plan's non-rigid motion spares.
     """
     objects = max(objects, 1)
     moving = START_SHARE * config.gaussians_per_object * objects
@@ -151,12 +154,12 @@ def work_of(
     return Work(frames, objects, min(config.frames_per_step, frames), size[0] * size[1], channels, moving,
                 moving + (0 if still else background), "non_rigid_motion" in on, min(shown, objects),
                 max(size) / max(min(size), 1), window if window is not None and still else 1.0,
-                background if still else 0.0)  # fmt: skip
+                background if still else 0.0, min(rigid, objects))  # fmt: skip
 
 
 def step_features(work: Work, deform: bool = True) -> np.ndarray:  # (6,)
     """What the CPU time of one step is linear in (STEP_NAMES); the static lift deforms nothing."""
-    bending = work.moving if work.bends and deform else 0.0
+    bending = work.moving * (1.0 - work.rigid / work.objects) if work.bends and deform else 0.0
     return np.array([
         work.views * work.window * work.pixels * work.channels / 1e6, work.views * work.total / 1e3,
         work.views * bending / 1e3, float(work.prior), float(work.objects), 1.0,
@@ -234,7 +237,8 @@ def forecast(
     """
     on = [effect.name for effect in plan.effects if effect.on]
     window = window_share(clip)
-    work = work_of(clip.size, len(clip), clip.objects, on, config, window)
+    rigid = len(plan.get("non_rigid_motion").spared)
+    work = work_of(clip.size, len(clip), clip.objects, on, config, window, rigid)
     factor = (1.0 if config.clock == "cpu" else machine.wall_now()) / machine.speed
     measured = replace(difficulty(clip), **(pilot or {}))
     return replace(foretold(work, measured, config, factor), window=window)

@@ -25,6 +25,7 @@ class Effect:
         ms_per_step, mb: predicted cost when on. overridden: the user decided, not the evidence.
         said, origin_said: reason and origin as keys and values (texts.py), for other languages.
         settings: numbers that go with it, e.g. {"motion_bases": 6}.
+        spared: ids of objects that it is not simulated for although it is on.
         measured_ms, measured_mb: what it did cost per step and in memory, once a run has measured it.
     """
 
@@ -39,6 +40,7 @@ class Effect:
     mb: float = 0.0
     overridden: bool = False
     settings: Mapping[str, float] | None = None
+    spared: tuple[int, ...] = ()
     measured_ms: float | None = None
     measured_mb: float | None = None
     said: tuple[Said, ...] = ()
@@ -54,6 +56,11 @@ class EffectPlan:
     def on(self, name: EffectName) -> bool:
         """True if the effect is simulated."""
         return self.get(name).on
+
+    def on_object(self, name: EffectName, object_id: int) -> bool:
+        """True if the effect is simulated for an object."""
+        effect = self.get(name)
+        return effect.on and object_id not in effect.spared
 
     def get(self, name: EffectName) -> Effect:
         """The decision about one effect; KeyError for a name that is none."""

@@ -24,6 +24,7 @@ TEXTS: dict[str, str] = {
     "camera_stands": "The camera stands still ({source}).",
     "rigid": "Every object moves like a rigid body as far as flow and outlines show.",
     "bends": "'{name}' bends {times:.1f} times as much as turning rigid objects seem to.",
+    "stay_rigid": "Rigid all the same: {names}.",
     "light_changes": "Brightness changes by {percent:.0f} % over the clip.",
     "light_stays": "The light stays the same.",
     "turns": "An object turns by {degrees:.0f} degrees, the light does not.",

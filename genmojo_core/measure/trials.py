@@ -92,7 +92,8 @@ class Bench:
         row = {"key": trial.key, "kind": trial.kind, "title": trial.title, "seed": trial.config.seed,
                "moment": trial.moment, "vary": trial.vary, "frames": len(clip), "objects": clip.objects,
                "size": list(clip.size), "window": window_share(clip), "prepare": prepared,
-               "on": [e.name for e in plan.effects if e.on], "difficulty": self._difficulty.to_json(),
+               "on": [e.name for e in plan.effects if e.on], "rigid": len(plan.get("non_rigid_motion").spared),
+               "difficulty": self._difficulty.to_json(),
                "config": trial.config.to_json()}  # fmt: skip
         if trial.kind == "growth":
             return row | _growth(clip, plan, trial)

@@ -50,17 +50,26 @@ def changed(run: Run, name: EffectName) -> EffectChanged:
 
 
 def bending(clip: Clip, plan: EffectPlan, motions: Sequence[ObjectMotion], most_bases: int) -> EffectPlan:
-    """The plan with non-rigid motion on and the reason, if the initial motion bends an object; else as it was."""
-    if not may(plan, "non_rigid_motion"):
+    """The plan as it was, or with the reason why an object that it holds for rigid bends after all.
+
+    With non-rigid motion off it comes on for all objects, else for those that the initial motion bends.
+    """
+    effect = plan.get("non_rigid_motion")
+    if effect.overridden:
         return plan
-    for k, motion in enumerate(motions):
-        share = bent_share(clip, k, motion)
-        if share >= BENDS:
-            said = ("leaves_rigid", {"name": clip.object_names[k], "percent": 100 * share})
-            plan = plan.decided("non_rigid_motion", True, said)
-            effect = with_bases(plan.get("non_rigid_motion"), most_bases, share / BENDS)
-            return plan.changed("non_rigid_motion", settings=effect.settings)
-    return plan
+    rigid = [k for k in range(len(motions)) if not plan.on_object("non_rigid_motion", int(clip.object_ids[k]))]
+    shares = {k: bent_share(clip, k, motions[k]) for k in rigid}
+    bent = [k for k in rigid if shares[k] >= BENDS]
+    if not bent:
+        return plan
+    worst = max(bent, key=lambda k: shares[k])
+    said = ("leaves_rigid", {"name": clip.object_names[worst], "percent": 100 * shares[worst]})
+    plan = plan.decided("non_rigid_motion", True, said)
+    if effect.on:
+        called_in = {int(clip.object_ids[k]) for k in bent}
+        return plan.changed("non_rigid_motion", spared=tuple(i for i in effect.spared if i not in called_in))
+    bases = with_bases(plan.get("non_rigid_motion"), most_bases, shares[worst] / BENDS)
+    return plan.changed("non_rigid_motion", settings=bases.settings)
 
 
 def bent_share(clip: Clip, k: int, motion: ObjectMotion) -> float:

@@ -170,7 +170,7 @@ def _object_model(
     centres = np.linalg.inv(clip.cameras.value.world_to_camera)[:, :3, 3]
     placement = Placement(motion.pose @ to_object, centres)
     field = None
-    if plan.on("non_rigid_motion"):
+    if plan.on_object("non_rigid_motion", int(clip.object_ids[k])):
         settings = plan.get("non_rigid_motion").settings or {}
         bases = int(settings.get("motion_bases", config.motion_bases))
         shape = FieldShape(len(clip), bases, config.plane_resolution, config.plane_levels, config.plane_channels,

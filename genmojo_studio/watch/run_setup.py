@@ -223,9 +223,10 @@ class RunSetup(QWidget):
         if not basis or clip is None:
             return None
         config = self.config()
-        on = [row["name"] for row in self.effects.chosen() if row["on"]]
+        chosen = [row for row in self.effects.chosen() if row["on"]]
+        on, rigid = [row["name"] for row in chosen], max((len(row.get("spared", ())) for row in chosen), default=0)
         size, window = fitted(clip.source_size, config.short_side), basis.get("window")
-        work = work_of(size, len(clip), clip.objects, on, config, window)
+        work = work_of(size, len(clip), clip.objects, on, config, window, rigid)
         return foretold(work, Difficulty(**basis["clip"]), config, float(basis["factor"]))
 
     def _forecast(self, clip: Clip) -> forecast.Forecast:

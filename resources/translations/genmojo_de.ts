@@ -3866,6 +3866,10 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>„{name}“ biegt sich {times:.1f}-mal so stark, wie es drehende starre Objekte zu tun scheinen.</translation>
     </message>
     <message>
+      <source>Rigid all the same: {names}.</source>
+      <translation>Starr trotzdem: {names}.</translation>
+    </message>
+    <message>
       <source>Brightness changes by {percent:.0f} % over the clip.</source>
       <translation>Die Helligkeit ändert sich im Clip um {percent:.0f} %.</translation>
     </message>

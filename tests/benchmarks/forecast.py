@@ -59,7 +59,8 @@ def work(row: dict[str, Any]) -> Work:
 
 def planned_work(row: dict[str, Any]) -> Work:
     """As it is foretold, before the run has its Gaussians."""
-    return work_of(tuple(row["size"]), row["frames"], row["objects"], row["on"], config_of(row), row.get("window"))
+    return work_of(tuple(row["size"]), row["frames"], row["objects"], row["on"], config_of(row), row.get("window"),
+                   row.get("rigid", 0))  # fmt: skip
 
 
 def non_negative(a: np.ndarray, b: np.ndarray, rounds: int = 3000) -> np.ndarray:

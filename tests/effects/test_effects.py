@@ -191,6 +191,24 @@ def test_bending_outline_calls_for_non_rigid_motion() -> None:
     assert effect.on and effect.settings["motion_bases"] >= 4 and "square 1" in effect.reason
 
 
+def test_only_the_objects_that_bend_are_simulated_as_bending() -> None:
+    """Of two bars without usable flow one curves; the other slides along, and costs nothing by it."""
+    clip = make_clip(np.stack([line((64, 64), (64, 64)), line((20, 20), (40, 20))]), (20, 10))
+    y, x = np.mgrid[:SIDE, :SIDE]
+    bends = [(np.abs(x - 64) < 45) & (np.abs(y - 84 - bend * ((x - 64) / 45.0) ** 2) < 8)
+             for bend in np.linspace(0, 20, FRAMES)]  # fmt: skip
+    slides = [(np.abs(x - 40 - move) < 20) & (np.abs(y - 20) < 10) for move in np.linspace(0, 30, FRAMES)]
+    labels = np.where(bends, 1, np.where(slides, 2, 0)).astype(np.uint8)
+    blind = Channel(clip.flow.value, np.zeros(labels.shape, bool), "estimated: none")
+    two = replace(clip, masks=replace(clip.masks, value=labels), flow=blind)
+    decided = plan(two, CONFIG)
+    effect, by_hand = decided.get("non_rigid_motion"), plan(two, CONFIG, {"non_rigid_motion": True})
+    assert effect.on and effect.spared == (2,) and "Rigid all the same: 'square 2'." in effect.reason
+    assert decided.on_object("non_rigid_motion", 1) and not decided.on_object("non_rigid_motion", 2)
+    assert by_hand.get("non_rigid_motion").spared == ()  # the user's word is for all
+    assert effect.ms_per_step == pytest.approx(0.5 * by_hand.get("non_rigid_motion").ms_per_step)
+
+
 @settings(max_examples=10, deadline=None, phases=(Phase.explicit, Phase.generate), derandomize=True)
 @given(st.floats(-25, 25), st.floats(-0.03, 0.03), st.floats(-4, 4))
 @example(6.0, 0.0, 0.0)  # turned by 42 degrees within a window: was taken for bending
@@ -392,3 +410,5 @@ def test_shared_clips_call_for_what_their_makers_say(name: str, on: set[str], of
     decided = plan(complete(folders.read(DATA / name, frames=(0, 24), short_side=128)), CONFIG)
     simulated = {effect.name for effect in decided.effects if effect.on}
     assert on <= simulated and not off & simulated
+    if name == "blender-trio":
+        assert decided.get("non_rigid_motion").spared == (2, 3)  # the cylinder bends, the ball and the head do not

@@ -55,6 +55,13 @@ def test_what_is_off_costs_nothing():
     assert (bare <= full).all() and bare[2] == 0 and bare[3] == 0
 
 
+def test_objects_that_stay_rigid_do_not_bend_for_time():
+    config = preset("draft")
+    both, one = made(config), work_of((200, 100), 24, 2, ON, config, rigid=1)
+    assert 0 < step_features(one)[2] == pytest.approx(0.5 * step_features(both)[2])
+    assert foretold(one, CLIP, config, 1.0, MODEL).seconds < foretold(both, CLIP, config, 1.0, MODEL).seconds
+
+
 def test_a_step_that_looks_at_almost_nothing_still_takes_its_time():
     config = preset("draft", lift_steps=0, joint_steps=100, budget_seconds=1e6)
     told = foretold(work_of((200, 100), 24, 1, ["background"], config, 1e-6), CLIP, config, 1.0, MODEL)

@@ -16,14 +16,16 @@ import torch
 from genmojo_core.clip.clip import Clip
 from genmojo_core.clip.synthetic import generate
 from genmojo_core.clip.synthetic_specs import CYLINDER, spec
+from genmojo_core.effects.decide import plan
 from genmojo_core.effects.texts import sentence
 from genmojo_core.estimate.complete import complete
 from genmojo_core.events import EffectChanged, Event, Finished, Step
+from genmojo_core.optimise import call_in
 from genmojo_core.optimise import run as run_module
-from genmojo_core.optimise.call_in import LOOKS, LightWatch
+from genmojo_core.optimise.call_in import BENDS, LOOKS, LightWatch
 from genmojo_core.optimise.motion import initial_motion
 from genmojo_core.optimise.run import Run
-from tests.optimise.small_runs import small_clip, small_run
+from tests.optimise.small_runs import small_clip, small_config, small_run
 
 LONG = {"lift_steps": 10, "joint_steps": 60, "held_out_share": 0.2}
 
@@ -108,6 +110,7 @@ def test_bending_that_was_left_out_is_called_in(monkeypatch: pytest.MonkeyPatch)
     assert [stage.steps for stage in run.progress.stages] == [6, 5]  # not those of a rigid object any more
     assert all(o.field is not None for o in run.scene.objects)
     assert run.plan.get("non_rigid_motion").settings["motion_bases"] >= 1
+
     rigid = small_run(clip, {"non_rigid_motion": False}, joint_steps=5, rigid_steps=8)
     assert calls(list(rigid)) == []
     assert [stage.steps for stage in rigid.progress.stages] == [6, 8]
@@ -123,3 +126,17 @@ def test_still_light_is_not_called_in_by_noise() -> None:
     for _ in range(9):
         watch.hear([(3, shown, shown * 0.8)])
     assert watch.change() == pytest.approx(0.2, abs=0.03) and "brightness" in sentence([watch.called_for()])
+
+
+def test_an_object_that_was_held_for_rigid_is_called_in_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    clip = small_clip("moving-camera", frames=4)
+    ids = tuple(int(i) for i in clip.object_ids)
+    decided = plan(clip, small_config()).changed("non_rigid_motion", on=True, overridden=False, spared=ids)
+    motions = initial_motion(clip)
+    shares = dict.fromkeys(range(len(ids)), 0.0) | {1: 2 * BENDS}
+    monkeypatch.setattr(call_in, "bent_share", lambda _, k, __: shares[k])
+    after = call_in.bending(clip, decided, motions, 4).get("non_rigid_motion")
+    assert after.on and after.spared == tuple(i for i in ids if i != ids[1])
+    assert clip.object_names[1] in after.reason
+    by_hand = decided.changed("non_rigid_motion", overridden=True)
+    assert call_in.bending(clip, by_hand, motions, 4) is by_hand

@@ -106,6 +106,22 @@ def test_what_is_off_does_not_exist(name: str, clip: Clip, whole: Run, monkeypat
         assert run.objective.tracks == []
 
 
+def test_a_spared_object_has_no_field_while_others_bend(clip: Clip, whole: Run) -> None:
+    run = small_run(clip, {ALL: True})
+    first = int(clip.object_ids[0])
+    run.plan = run.plan.changed("non_rigid_motion", spared=(first,), overridden=False)
+    list(run)
+    fields = {model.id: model.field is not None for model in run.scene.objects}
+    assert fields == {int(i): int(i) != first for i in clip.object_ids}
+    owned = {name.split(".")[1] for name, _ in run.scene.named_parameters() if ".field." in name}
+    assert len(owned) == len(fields) - 1
+    frames = run.bake()
+    still, later = (frames.frame(t).object_index == 0 for t in (0, 3))
+    scales = [frames.frame(t).scales[chosen] for t, chosen in ((0, still), (3, later))]
+    growth = scales[1] / scales[0]
+    assert growth == pytest.approx(growth[0, 0], rel=1e-4)  # nearer or farther, but of the same shape
+
+
 def test_joint_occlusion_off_by_evidence_adds_no_term_between_objects(clip: Clip) -> None:
     """By evidence, not by the user, whose word means objects compared one by one (separate.py)."""
     run = small_run(clip)
