@@ -66,6 +66,22 @@ def judge(seed: int) -> tuple[list[Judged], float]:
     return rows, seconds
 
 
+def judge_objects(seed: int) -> list[tuple[float, bool]]:
+    """Of every object of a seed's clip: how far it is from rigid, in % of its size, and whether it may bend.
+
+    Empty where non-rigid motion is off as a whole, which `judge` judges.
+    """
+    made = made_clip(seed)
+    clip, truth = generate(made.spec)
+    plan = decide.plan(complete(clip), config_of(made))
+    if not plan.on("non_rigid_motion"):
+        return []
+    stage = Stage(made.spec)
+    areas = [(truth.labels == k + 1).sum(axis=(1, 2)).astype(float) for k in range(clip.objects)]
+    return [(100 * _deformation(stage, k, area), plan.on_object("non_rigid_motion", int(clip.object_ids[k])))
+            for k, area in enumerate(areas)]  # fmt: skip
+
+
 def config_of(made: MadeClip) -> RunConfig:
     """The configuration a made clip is planned for."""
     return preset("draft", prior="embedded", view_range=made.view_range)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import sys
 
-from effect_rows import full, misses, right, shared, simple
+from effect_rows import full, misses, right, shared, simple, spared
 from hard_case_rows import coverage, hard, mutations, soak
 from table import Rows, main
 from tradeoff_rows import AUTO, REPORTS, forecasts
@@ -22,6 +22,7 @@ ROWS: Rows = {
     "forecast": ("forecasts, each clip by a model of the others", forecasts),
     "shared": ("evidence and decisions, shared clips", shared),
     "right": ("decisions on made clips", right),
+    "spared": ("objects that stay rigid beside ones that bend", spared),
     "misses": ("what wrong decisions cost", misses),
     "simple": ("planned against all effects, one rigid object", simple),
     "full": ("planned against all effects, blender-trio", full),

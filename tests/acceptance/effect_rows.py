@@ -78,6 +78,20 @@ def right(bench: Bench) -> list[Check]:
     return checks
 
 
+def spared(bench: Bench) -> list[Check]:
+    """Objects beside others that bend, seeds 100-199: the rigid ones are spared, none that bends is."""
+    limit = effect_truth.CALLS_FOR["non_rigid_motion"]
+    kept = bench.work / "objects.json"
+    if not kept.exists():
+        kept.write_text(json.dumps([one for seed in REPORTED for one in effect_truth.judge_objects(seed)]))
+    rows = json.loads(kept.read_text())
+    bends = [on for amount, on in rows if amount >= limit]
+    rigid = [on for amount, on in rows if amount < limit]
+    share = 100 * rigid.count(False) / max(len(rigid), 1)
+    return [Check("objects that bend", len(bends)), Check("held for rigid", bends.count(False), 0, at_most=True),
+            Check("rigid ones", len(rigid)), Check("% of them spared", share)]  # fmt: skip
+
+
 def misses(bench: Bench) -> list[Check]:
     """What each wrong decision on seeds 100-199 costs: a draft as planned against one with that decision put right."""
     rows = [row for seed in REPORTED for row in _judged(bench, seed) if not row.correct]
