@@ -170,7 +170,7 @@ def _non_rigid_motion(clip: Clip, config: RunConfig, evidence: Evidence) -> Rule
     reason: list[Said] = [("bends", {"name": name, "times": value}) if value >= 1 else ("rigid", {})]
     spared = [k for k, one in enumerate(evidence.bending) if value >= 1 and one.surely_rigid]
     if spared:
-        reason.append(("stay_rigid", {"names": ", ".join(f"'{clip.object_names[k]}'" for k in spared)}))
+        reason.append(("stay_rigid", {"names": ", ".join(clip.object_names[k] for k in spared)}))
     limits = {"mode": 100 * RIGID_MODE, "outline": 100 * RIGID_OUTLINE, "stretch": 100 * RIGID_STRETCH,
               "lean": RIGID_LEAN}  # fmt: skip
     return Rule(value, "x rigid", 1.0, ("origin_rigid", limits), reason,

@@ -203,7 +203,7 @@ def test_only_the_objects_that_bend_are_simulated_as_bending() -> None:
     two = replace(clip, masks=replace(clip.masks, value=labels), flow=blind)
     decided = plan(two, CONFIG)
     effect, by_hand = decided.get("non_rigid_motion"), plan(two, CONFIG, {"non_rigid_motion": True})
-    assert effect.on and effect.spared == (2,) and "Rigid all the same: 'square 2'." in effect.reason
+    assert effect.on and effect.spared == (2,) and "Rigid all the same: square 2." in effect.reason
     assert decided.on_object("non_rigid_motion", 1) and not decided.on_object("non_rigid_motion", 2)
     assert by_hand.get("non_rigid_motion").spared == ()  # the user's word is for all
     assert effect.ms_per_step == pytest.approx(0.5 * by_hand.get("non_rigid_motion").ms_per_step)
