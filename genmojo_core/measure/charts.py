@@ -131,10 +131,17 @@ class _Axis:
                 inside = [v for v in values if self._low <= math.log10(v) <= self._high]
                 if len(inside) >= 4:
                     break
-            return [(v, self.at(v)) for v in inside]
-        step = _round_step((self._high - self._low) / 6)
-        count = range(math.ceil(self._low / step), math.floor(self._high / step) + 1)
-        return [(i * step, self.at(i * step)) for i in count]
+            if len(inside) < 3:  # the values lie close together
+                inside = _round_values(10.0**self._low, 10.0**self._high, 3)
+        else:
+            inside = _round_values(self._low, self._high, 6)
+        return [(v, self.at(v)) for v in inside]
+
+
+def _round_values(low: float, high: float, about: int) -> list[float]:
+    """Multiples of a round step between two numbers."""
+    step = _round_step((high - low) / about)
+    return [i * step for i in range(math.ceil(low / step), math.floor(high / step) + 1)]
 
 
 def _round_step(step: float) -> float:

@@ -193,3 +193,11 @@ def test_bad_input_is_one_sentence(tmp_path, capsys):
     assert main(["tradeoff", str(tmp_path / "nothing"), "-o", str(tmp_path / "out"), "--seeds", "0"]) == 2
     assert main(["tradeoff", str(tmp_path / "nothing"), "-o", str(tmp_path / "out")]) == 2
     assert len(capsys.readouterr().err.strip().splitlines()) >= 2 and not list((tmp_path / "out").glob("*"))
+
+
+@pytest.mark.parametrize("values", [(85.3, 96.0), (1.0, 1.02), (56.4, 77.6), (0.3, 3000.0), (7.0, 7.0)])
+def test_axes_of_charts_are_labelled_however_close_their_values_lie(values: tuple[float, float]) -> None:
+    for log in (True, False):
+        shapes = Chart("x", "y", [Series("one", [(1.0, values[0]), (2.0, values[1])], "#000000")], log_y=log).shapes()
+        labels = [shape[3] for shape in shapes if shape[0] == "text" and shape[4] == "end"]
+        assert 2 <= len(labels) <= 13 and len(set(labels)) == len(labels)
