@@ -53,8 +53,8 @@ def write_html(entries: Sequence[Mapping[str, Any]], title: str, path: Path) -> 
         lines.append(f"<tr>{''.join(row)}</tr>")
     notes = "".join(f"<li>{html.escape(e['title'])}: {html.escape(n)}</li>" for e in entries for n in e["notes"])
     page = (
-        f"<!doctype html><meta charset=utf-8><title>{html.escape(title)}</title><style>body{{font:15px sans-serif;"
-        "margin:2em}table{border-collapse:collapse}td,th{padding:.35em .8em;text-align:right;border-bottom:1px solid "
+        f"<!doctype html><meta charset=utf-8><title>{html.escape(title)}</title><style>body{{font:14px sans-serif;"
+        "margin:2em}table{border-collapse:collapse}td,th{padding:.35em .55em;text-align:right;border-bottom:1px solid "
         "#ccc}td:first-child,th:first-child{text-align:left}.best{font-weight:bold}</style>"
         f"<h1>{html.escape(title)}</h1><table>{''.join(lines)}</table><p>Tracks in pixels of 256 x 256; IoU of "
         "silhouettes, PSNR inside both silhouettes (in) and in either (union) at ±30, ±90 and 180 degrees; saves: CPU "
