@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))  # rows that measure in this process judge this checkout, whatever is installed
 
 
 @dataclass
@@ -78,7 +79,6 @@ def main(rows: Rows, about: str, name: str) -> int:
     parser.add_argument("--only", default="", help=f"comma-separated rows of {', '.join(rows)}")
     parser.add_argument("--again", action="store_true", help="measure anew what is known already")
     args = parser.parse_args()
-    sys.path.insert(0, str(ROOT))
     bench = Bench(args.work.resolve(), args.data.resolve())
     (bench.work / "results").mkdir(parents=True, exist_ok=True)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
