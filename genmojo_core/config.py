@@ -107,6 +107,12 @@ SETTLE_SHARE = 0.1  # of the budget: most that fitting a still background may ta
 LIFT_SHARE = 0.08  # of a paced run's time after the motion
 OUTWARD_SHARE = 0.3  # of the joint stage, by which all frames take part
 
+
+def outward_reach(frames: int, share: float) -> int:
+    """How many frames away from the canonical one take part once a share (0..1) of the joint stage is done."""
+    return 2 + math.ceil((frames - 1) * min(1.0, share / OUTWARD_SHARE))
+
+
 # draft: 224 px, because frames kept at 128 px and enlarged to 256 reach 24.6 dB at best on the clip "crossing".
 # Positions of rigid objects learn half as fast: else they take up in few steps what the poses are off by (blender-cross
 # 29.3 -> 30.0 dB and 0.71 -> 0.58 px, with 360 steps; the bending people of "crossing" would lose 0.2 dB by it).

@@ -61,7 +61,8 @@ def foretell(
     if expected is None:
         return None
     if pilot and expected.pilot_seconds is not None:
-        say(f"A pilot of a few small frames runs for about {expected.pilot_seconds:.0f} s, to foretell dB better.")
+        seconds = f"{expected.pilot_seconds:.0f} s"
+        say(f"A pilot, the clip run small and short, takes about {seconds}, to foretell dB better.")
         send_pilot(clip, plan, source, frames)
         expected = expectation(clip, plan, config) or expected
     say(expected.sentence())

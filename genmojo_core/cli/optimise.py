@@ -38,7 +38,7 @@ def add_commands(commands: Any) -> None:
     arguments.add_clip_options(effects)
     arguments.add_config_options(effects)
     models.add_model_options(effects)
-    effects.add_argument("--pilot", action="store_true", help="run a few small frames of the clip first (some seconds, "
+    effects.add_argument("--pilot", action="store_true", help="run the clip small and short first (some seconds, "
                          "once), so that dB are foretold better, here and by later commands")  # fmt: skip
     effects.set_defaults(run=run_effects)
     optimize = commands.add_parser("optimize", help="clip to 4D scene")

@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 
 from genmojo_core.clip.clip import Clip
-from genmojo_core.clip.cut import cut
+from genmojo_core.clip.cut import picked
 from genmojo_core.config import MEASURED_SIDE
 from genmojo_core.conventions import DILATION
 from genmojo_core.effects import pilot
@@ -26,7 +26,9 @@ from genmojo_core.measure.reconstruction import foreground_of, reconstruction
 from genmojo_core.optimise.run import Run
 from genmojo_core.store.atomic import write_bytes
 
-PIXEL_SIGMA = math.sqrt(DILATION + 1 / 12)  # of a blur, in pixels: the smallest splat and the pixel it is averaged over
+# Pixels of a blur: the smallest splat and the pixel that it is averaged over, narrower because an edge is made of many.
+# With 0.6 the pilots of ten clips told 41 runs best, each clip left out (0.90 dB; 0.99 with 0.8, above 1 with 1).
+PIXEL_SIGMA = 0.6 * math.sqrt(DILATION + 1 / 12)
 
 
 def piloted(clip: Clip, plan: EffectPlan, measured: Clip, progress: Callable[[float], None]) -> Pilot:
@@ -34,12 +36,12 @@ def piloted(clip: Clip, plan: EffectPlan, measured: Clip, progress: Callable[[fl
 
     Args:
         measured: the same clip as a run's result is compared with it (`as_measured`). progress: takes a share 0..1.
-    Raises GenmojoError: "empty" where the middle frames show no object, "numeric" where the run fails.
+    Raises GenmojoError: "empty" where its frames show no object, "numeric" where the run fails.
     """
     known = pilot.stored(clip, plan)
     if known is not None:
         return known
-    run = Run(middle(clip), pilot.pilot_plan(plan), pilot.pilot_config(clip.objects))
+    run = Run(small(clip), pilot.pilot_plan(plan), pilot.pilot_config(clip.objects))
     for event in run:
         if isinstance(event, Failed):
             raise GenmojoError("numeric", event.message.rstrip("."), clip.path)
@@ -48,7 +50,7 @@ def piloted(clip: Clip, plan: EffectPlan, measured: Clip, progress: Callable[[fl
     reached = reconstruction(run.bake(), measured)["psnr"]
     found = Pilot(reached, blurred_psnr(measured, PILOT_SIDE), blurred_psnr(measured, MEASURED_SIDE))
     if not math.isfinite(found.reached + found.coarse):
-        raise GenmojoError("empty", "shows no object in its middle frames", clip.path)
+        raise GenmojoError("empty", "shows no object", clip.path)
     keep(clip, plan, found)
     return found
 
@@ -62,11 +64,11 @@ def keep(clip: Clip, plan: EffectPlan, found: Pilot) -> bool:
     return True
 
 
-def middle(clip: Clip) -> Clip:
-    """The middle frames at the pilot's size, completed anew where a plate has another size."""
-    count = min(pilot.FRAMES, len(clip))
-    small = sample(cut(clip, (len(clip) - count) // 2, count), PILOT_SIDE)
-    return complete(small.with_channels(background=None, background_depth=None, background_frame=0))
+def small(clip: Clip) -> Clip:
+    """The pilot's frames at its size, completed anew: a plate has another size, flow may skip frames."""
+    places = np.unique(np.linspace(0, len(clip) - 1, min(pilot.FRAMES, len(clip))).round().astype(int))
+    few = sample(picked(clip, places.tolist()), PILOT_SIDE)
+    return complete(few.with_channels(background=None, background_depth=None, background_frame=0))
 
 
 def blurred_psnr(clip: Clip, short_side: int) -> float:

@@ -124,7 +124,8 @@ def _parts(clip: Clip, wanted: Wanted, seed: int) -> Iterator[Trial]:
     """A small run as it is planned, and the same steps with one effect or one loss term taken away or added."""
     base = preset("draft", seed=seed, **wanted.common, **BASE)
     plan = decide.plan(clip, base)
-    yield Trial(f"base-{seed}", "effect", "as planned", base)
+    terms = _terms(plan)
+    yield Trial(f"base-{seed}", "effect", "as planned", base, terms=tuple(terms))
     for effect in plan.effects:
         config, switched = base, {str(effect.name): not effect.on}
         if effect.name == "unseen_views" and not effect.on:
@@ -136,7 +137,7 @@ def _parts(clip: Clip, wanted: Wanted, seed: int) -> Iterator[Trial]:
             sign = "without" if effect.on else "with"
             title = f"{sign} {effect.name.replace('_', ' ')}"
             yield Trial(f"effect-{effect.name}-{seed}", "effect", title, config, switched)
-    for term in _terms(plan):
+    for term in terms:
         weights = replace(base.weights, **{term: 0.0})
         yield Trial(f"loss-{term}-{seed}", "loss", f"without {term.replace('_', ' ')}", replace(base, weights=weights))
 
@@ -182,7 +183,7 @@ def _digest(trial: Trial, source: Source) -> str:
     """What makes two rows the same trial: whatever differs from the defaults, so that new settings spoil no old row."""
     usual = RunConfig().to_json()
     config = {key: value for key, value in trial.config.to_json().items() if value != usual[key]}
-    parts = [config, dict(trial.effects), trial.kind, trial.frames, trial.objects,
+    parts = [config, dict(trial.effects), trial.kind, trial.frames, trial.objects, *trial.terms,
              str(Path(source.path).resolve()), source.frames, __version__]  # fmt: skip
     return hashlib.sha256(json.dumps(parts, sort_keys=True, default=str).encode()).hexdigest()[:16]
 

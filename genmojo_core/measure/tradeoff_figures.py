@@ -138,11 +138,12 @@ def parts_table(rows: Sequence[Row]) -> list[dict[str, Any]]:
 
 
 def _cost(key: str, there: Row, without: Row) -> float:
-    """CPU ms a step of the part that a trial is about: as its run took it out of one step, else between two runs.
+    """CPU ms a step of the part that a trial is about, as the run that has it took it out of one step.
 
-    Two runs also differ by what else the machine did meanwhile. Loss terms are not measured within a run.
+    The difference between two runs, which is also what else the machine did meanwhile, where that run did not.
     """
-    within = there.get("costs", {}).get(key.split("-")[1])
+    kind, part = key.split("-")[:2]
+    within = there.get("costs" if kind == "effect" else "term_costs", {}).get(part)
     return float(_step_ms(there) - _step_ms(without) if within is None else within)
 
 

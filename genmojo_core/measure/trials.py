@@ -22,6 +22,7 @@ from genmojo_core.errors import GenmojoError
 from genmojo_core.estimate.complete import complete
 from genmojo_core.events import Event, Failed, Finished, Preview, StageStarted, Step, Warned
 from genmojo_core.measure.scoring import Scorer
+from genmojo_core.optimise.cost import term_costs
 from genmojo_core.optimise.motion import ObjectMotion, initial_motion
 from genmojo_core.optimise.run import Run
 
@@ -36,6 +37,7 @@ class Trial:
     Args:
         key: file name of its row. kind: "preset", "size", "effect", "loss" or "growth". title: for people.
         config: of the run. effects: switched by hand. moment: seconds after which a preset is stopped, 0 if it is not.
+        terms: losses whose cost is taken out of a step of its result.
         vary: for "growth", what is varied ("frames", "objects", "pixels", "Gaussians") and frames, objects: how many
         are kept of the clip (0 = all).
     """
@@ -49,6 +51,7 @@ class Trial:
     vary: str = ""
     frames: int = 0
     objects: int = 0
+    terms: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -103,6 +106,8 @@ class Bench:
         if shared:
             run.motions = self._motions.get(trial.config.short_side)
         figures = _watched(run, None if shared else Scorer(self.source.path, self.source.frames, clip), hear)
+        if trial.terms:
+            row["term_costs"] = term_costs(run.objective, list(range(trial.config.frames_per_step)), trial.terms)
         if shared and run.motions is not None:
             self._motions[trial.config.short_side] = run.motions
         scene = run.bake()

@@ -96,12 +96,12 @@ def _add(normal: np.ndarray, right: np.ndarray, sight: Sight, problem: Problem, 
     straight = bend.undone(s, (points - path.position[s]) @ path.rotation[s] + path.centre)
     basis = monomials((straight - bend.centre) / bend.scale)
     rigid = path.between(s, t, points)
-    rows, error, noise = residual_rows(problem, sight, rigid)
+    rows, error, noise = residual_rows(problem, sight, t, rigid)
     local = rows @ path.rotation[t]
     design = (basis[:, None, :, None] * local[:, :, None, :]).reshape(len(rows) * rows.shape[1], -1)
     now = design @ (bend.coefficients[t] - bend.coefficients[s]).ravel()
     left = (error.ravel() - now).reshape(error.shape)
-    weights = robust_weights(left / noise, sight.weight) / noise**2
+    weights = robust_weights(left / noise, sight.shares) / noise**2
     weighted = design * weights.reshape(-1, 1)
     square, vector = weighted.T @ design, weighted.T @ error.ravel()
     n = design.shape[1]

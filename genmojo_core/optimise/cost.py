@@ -1,15 +1,16 @@
-"""What every effect costs in a run, measured on its own scene: CPU time of a step with the effect and without it.
+"""What effects and loss terms cost in a run, measured on its own scene: CPU time of a step with one and without it.
 
-An effect's part is taken out of the live scene for one frame's loss and gradient, and put back: the difference is the
-effect's cost, its backward pass included. Memory is counted: parameters with gradient and two moments, and feature
-channels of the splatted frame.
+An effect's part is taken out of the live scene for one frame's loss and gradient, and put back, and a loss term's
+weight is 0 for as long: the difference is the cost, the backward pass included. Memory is counted: parameters with
+gradient and two moments, and feature channels of the splatted frame.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any, cast
 
 import torch
@@ -20,6 +21,7 @@ from genmojo_core.optimise.objective import Objective
 from genmojo_core.scene.scene4d import Layout
 
 REPEATS = 2  # of which the faster counts
+TURNS = 2  # in which loss terms are taken away one after the other; the faster of each counts
 _PER_PARAMETER = 4  # value, gradient, two moments
 Patch = list[tuple[Any, str, Any]]  # object, attribute, value that takes the effect's part out
 
@@ -39,6 +41,24 @@ def measured_costs(objective: Objective, plan: EffectPlan, frames: list[int]) ->
                 saved = whole - _seconds(objective, frame)
             costs[name] = (max(0.0, 1e3 * saved * len(frames)), megabytes(objective) / 1e6)
     return costs
+
+
+def term_costs(objective: Objective, frames: list[int], names: Iterable[str]) -> dict[str, float]:
+    """CPU ms per step of loss terms, by their names in `LossWeights`; leaves weights and gradients as they were.
+
+    Nothing for a term that takes no time of its own, as those do that are made with others in one go.
+
+    Args:
+        frames: as in `measured_costs`.
+    """
+    names, frame = list(names), frames[:1]
+    whole, less = float("inf"), dict.fromkeys(names, float("inf"))
+    for _ in range(TURNS):
+        whole = min(whole, _seconds(objective, frame))
+        for name in names:
+            with _without([(objective, "weights", replace(objective.weights, **{name: 0.0}))]):
+                less[name] = min(less[name], _seconds(objective, frame))
+    return {name: max(0.0, 1e3 * (whole - less[name]) * len(frames)) for name in names}
 
 
 def with_costs(plan: EffectPlan, objective: Objective, frames: list[int]) -> EffectPlan:

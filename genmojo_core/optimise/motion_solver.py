@@ -7,7 +7,6 @@ left is explained by a smooth bend if that has evidence.
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,7 +32,7 @@ _FAR = 1e5  # pixels
 _FARTHEST = 8.0  # times the first distance from the camera
 _UNSEEN = 0.6  # of the last velocity goes on per frame in which the object is not seen
 _ON_SURFACE = (0.01, 0.05)  # of the size: how far carried points may lie off measured and guessed depth
-_SOLVE_COST = 4.0  # seconds of a joint solve with its links, in seconds of the links at half resolution
+_COARSE_COST, _FINE_COST = 2.5, 4.0  # seconds of a joint solve with its links, in seconds of the links made so far
 _ROUGH = 0.3  # confidence of a pose that is only where the pixels are
 _BEND_GAIN = 0.85  # a bend must bring the median residual below this share of the rigid one's
 
@@ -81,16 +80,20 @@ class ObjectSolver:
             return Found(self.surfaces, path, no_bend(self.frames, np.zeros(3), 1.0), np.zeros(self.frames), 0.0)
         path, sights, rough = self._outward()
         hurried = bool(rough.any())
-        every = np.ones(self.frames, bool)
+        every, solved = np.ones(self.frames, bool), False
         for last in (False, True) if self.surfaces.measured else (False, True, True):  # a guessed shape takes longer
             pairs = self._pairs(_LINKS if last else _FIRST_LINKS, both=last)
-            hurried = hurried or not self._affordable(pairs)
-            if not hurried:
-                sights = self._sights(path, pairs, fine=last)
+            fine = last and self._affordable(_FINE_COST, pairs)
+            hurried = hurried or fine != last
+            if not rough.any() and (fine or self._affordable(_COARSE_COST, pairs)):
+                sights = self._sights(path, pairs, fine)
                 path, self.depth = solve(path, self._problem(sights), every, every, rounds=8)
                 self._keep_shape()
+                solved = True
+            else:
+                hurried = True
         rigid = no_bend(self.frames, path.centre, self.surfaces.size)
-        bend = rigid if hurried else fit_bend(path, self._problem(sights))
+        bend = fit_bend(path, self._problem(sights)) if solved and not self.deadline.over() else rigid
         residual = self._residual(path, rigid, sights)
         if self._residual(path, bend, sights) > _BEND_GAIN * residual:
             bend = rigid
@@ -175,10 +178,10 @@ class ObjectSolver:
         surface = self.surfaces.surfaces[s]
         if surface is None or not self.seen[t]:
             return None
-        began = time.perf_counter()
+        began = self.deadline.clock()
         predicted = project(self.surfaces.cameras, t, path.between(s, t, surface.points)).astype(np.float32)
         link = self.matcher.link(self.surfaces.layer, surface.grid, t, predicted, fine)
-        self.links, self.linking = self.links + 1, self.linking + time.perf_counter() - began
+        self.links, self.linking = self.links + 1, self.linking + self.deadline.clock() - began
         return link
 
     def _sight(self, path: Path, s: int, t: int, fine: bool = False) -> Sight | None:
@@ -217,10 +220,10 @@ class ObjectSolver:
         found += [self._outline_sight(path, s, t) for s, t in pairs]
         return [sight for sight in found if sight is not None]
 
-    def _affordable(self, pairs: list[tuple[int, int]]) -> bool:
+    def _affordable(self, cost: float, pairs: list[tuple[int, int]]) -> bool:
         """Whether a joint solve of these pairs should end before the deadline, judged by the links made so far."""
         each = self.linking / max(self.links, 1)
-        return _SOLVE_COST * each * len(pairs) <= self.deadline.left()
+        return cost * each * len(pairs) <= self.deadline.left()
 
     def _pairs(self, distances: tuple[int, ...], both: bool) -> list[tuple[int, int]]:
         """Frames to link: at the given distances, away from the reference frame or both ways, and from it to all."""

@@ -188,24 +188,27 @@ class Objective:
         self, frames: list[int], states: dict[int, list[ObjectState]], generator: torch.Generator
     ) -> dict[str, Tensor]:
         """Regularisers over pairs of frames, and the tracks."""
-        zero = self.scene.w2c.sum() * 0.0
+        zero, weights = self.scene.w2c.sum() * 0.0, self.weights
         terms = {"smooth": zero}
         objects = len(self.scene.objects)
         for k, (model, near) in enumerate(zip(self.scene.objects, self.neighbours, strict=True)):
-            terms["smooth"] = terms["smooth"] + model.placement.smoothness() * self.frames / objects
+            for part in (model.placement, model.field) if weights.smooth > 0 else ():
+                if part is not None:
+                    terms["smooth"] = terms["smooth"] + part.smoothness() * self.frames / objects
             if model.field is None or near is None:
                 continue
-            terms["smooth"] = terms["smooth"] + model.field.smoothness() * self.frames / objects
             rows = torch.randperm(len(model.gaussians), generator=generator)[:SAMPLED_ROWS]
             for t in frames:
                 now, after = states[t][k], states.get(t + 1)
                 if now.deformation is None:
                     continue
                 share = 1.0 / (objects * len(frames))
-                values = [*scale_terms(now.deformation, near, rows)]
-                if after is not None:
-                    values += [*rigidity(now, after[k], near, rows)]
-                for name, value in zip(("local_scale", "delta_scale", "rigidity", "rotation"), values, strict=False):
+                found: dict[str, Tensor] = {}
+                if weights.local_scale > 0 or weights.delta_scale > 0:
+                    found["local_scale"], found["delta_scale"] = scale_terms(now.deformation, near, rows)
+                if after is not None and (weights.rigidity > 0 or weights.rotation > 0):
+                    found["rigidity"], found["rotation"] = rigidity(now, after[k], near, rows)
+                for name, value in found.items():
                     terms[name] = terms.get(name, zero) + share * value
                 if now.deformation.d_dc is not None:
                     terms["delta_color"] = terms.get("delta_color", zero) + share * now.deformation.d_dc.abs().mean()

@@ -38,13 +38,15 @@ def solve(
     depth, prior = problem.depth.copy(), problem.depth
     if count == 0:
         return path, depth
+    sights = [sight for sight in problem.sights if len(sight.index) and (free[sight.source] or free[sight.target])]
+    kinds = ([s for s in sights if s.facing is None], [s for s in sights if s.facing is not None])
+    joined = [Joined(kind, free, slot) for kind in kinds if kind]
     for _ in range(rounds):
         normal = np.zeros((6 * count, 6 * count))
         right = np.zeros(6 * count)
-        shape = _ShapeTerms(problem, free, slot)
-        for sight in problem.sights:
-            if free[sight.source] or free[sight.target]:
-                _add_sight(normal, right, shape, sight, problem, path, depth, free, slot)
+        shape = _ShapeTerms(problem, sights, free, slot)
+        for matches in joined:
+            _add_matches(normal, right, shape, matches, problem, path, depth)
         _add_smoothness(normal, right, path, (free, known), slot, problem)
         if problem.turn_weight > 0:
             _add_stillness(normal, right, path, (free, known), slot, problem.turn_weight)
@@ -70,7 +72,7 @@ class _ShapeTerms:
     source frame: the cost grows with the matches, not with frames times depths.
     """
 
-    def __init__(self, problem: Problem, free: np.ndarray, slot: np.ndarray) -> None:
+    def __init__(self, problem: Problem, active: list[Sight], free: np.ndarray, slot: np.ndarray) -> None:
         self.sigma = problem.depth_sigma
         self.on = self.sigma > 0
         count = len(problem.depth) if self.on else 0
@@ -78,12 +80,17 @@ class _ShapeTerms:
         self.blocks: dict[int, _Coupling] = {}
         if not self.on:
             return
-        active = [sight for sight in problem.sights if free[sight.source] or free[sight.target]]
         for source in {sight.source for sight in active}:
             own = [sight for sight in active if sight.source == source]
             slots = sorted({int(slot[f]) for f in [source, *(sight.target for sight in own)] if free[f]})
             low, high = min(sight.index.min() for sight in own), max(sight.index.max() for sight in own) + 1
             self.blocks[source] = _Coupling(int(low), int(high), slots)
+
+    def add(self, index: np.ndarray, weighted: np.ndarray, along: np.ndarray, errors: np.ndarray) -> None:
+        """Add what residuals (N, R) say of depths `index` (N,); `weighted`: derivatives `along` times weights."""
+        count = len(self.diagonal)
+        self.diagonal += np.bincount(index, (weighted * along).sum(axis=1), count)
+        self.right += np.bincount(index, (weighted * errors).sum(axis=1), count)
 
     def eliminate(self, normal: np.ndarray, right: np.ndarray, offset: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Steps of poses and depths; `offset` (M,) is how far the depths are from their prior."""
@@ -118,97 +125,160 @@ class _Coupling:
         self.cross[index - self.points.start, column : column + 6] += values
 
 
-def _add_sight(
+class Joined:
+    """Sights of one kind, of texture or of outlines, end to end: N points of S sights are worked on at once.
+
+    Args (also attributes):
+        sights: none is empty. free: (T,) bool. slot: (T,) place of a frame's pose among the free ones.
+    """
+
+    def __init__(self, sights: list[Sight], free: np.ndarray, slot: np.ndarray) -> None:
+        count = [len(sight.index) for sight in sights]
+        ends = np.cumsum(count)
+        self.parts = [slice(int(end) - n, int(end)) for end, n in zip(ends, count, strict=True)]
+        self.of = np.repeat(np.arange(len(sights)), count)  # (N,)
+        self.sources = np.array([sight.source for sight in sights])
+        self.targets = np.array([sight.target for sight in sights])
+        place = np.where(free, slot, -1)
+        self.slots = np.stack([place[self.sources], place[self.targets]], axis=1)  # (S, 2), -1: the pose stays
+        self.index = np.concatenate([sight.index for sight in sights])
+        self.xy = np.concatenate([sight.xy for sight in sights])
+        self.surface = np.concatenate([sight.surface for sight in sights])
+        self.normal = np.concatenate([sight.normal for sight in sights])
+        self.shares = np.concatenate([sight.shares for sight in sights])
+        outlined = [sight.facing for sight in sights if sight.facing is not None]
+        self.facing = np.concatenate(outlined) if outlined else None
+
+
+def _add_matches(
     normal: np.ndarray,
     right: np.ndarray,
     shape: _ShapeTerms,
-    sight: Sight,
+    matches: Joined,
     problem: Problem,
     path: Path,
     depth: np.ndarray,
-    *frames: np.ndarray,  # free, slot
 ) -> None:
-    """Add one sight's reprojection and surface residuals to the normal equations."""
-    free, slot = frames
-    s, t, index = sight.source, sight.target, sight.index
-    turn = path.rotation[t] @ path.rotation[s].T
-    before = problem.origin[index] + depth[index, None] * problem.ray[index] - path.position[s]
-    after = before @ turn.T
-    world = after + path.position[t]
-    rows, errors, noise = residual_rows(problem, sight, world)
-    size = errors / noise
-    weights = robust_weights(size, sight.weight) / noise**2
-    blocks: list[tuple[int, np.ndarray]] = []
-    if free[t]:
-        blocks.append((int(slot[t]), np.concatenate([_cross_rows(rows, after), rows], axis=2)))
-    if free[s]:
-        back = rows @ turn
-        blocks.append((int(slot[s]), -np.concatenate([_cross_rows(back, before), back], axis=2)))
-    along = np.einsum("nri,ni->nr", rows, problem.ray[index] @ turn.T) if shape.on else None
-    for place, block in blocks:
-        weighted = block * weights[..., None]
-        right[_six(place)] += np.einsum("nri,nr->i", weighted, errors)
-        for other, second in blocks:
-            normal[_six(place), _six(other)] += np.einsum("nri,nrj->ij", weighted, second)
-        if along is not None:
-            shape.blocks[s].add(index, place, np.einsum("nri,nr->ni", weighted, along))
-    if along is not None:
-        shape.diagonal[index] += (weights * along * along).sum(axis=1)
-        shape.right[index] += (weights * along * errors).sum(axis=1)
+    """Add the reprojection and surface residuals of sights to the normal equations.
+
+    A point moves in the target frame by -J T if the source's pose moves by what moves it by J if the target's does,
+    where T turns both halves of a pose's step from source to target: one product per sight serves both frames.
+    """
+    turns = path.rotation[matches.targets] @ path.rotation[matches.sources].transpose(0, 2, 1)
+    turn, index = turns[matches.of], matches.index
+    source, target = matches.sources[matches.of], matches.targets[matches.of]
+    after = _turned(turn, problem.origin[index] + depth[index, None] * problem.ray[index] - path.position[source])
+    rows, errors, noise = residual_rows(problem, matches, target, after + path.position[target])
+    weights = robust_weights(errors / noise, matches.shares) / noise**2
+    block = np.concatenate([_cross_rows(rows, after), rows], axis=2)
+    weighted = block * weights[..., None]
+    along, cross = np.zeros(weights.shape), np.zeros((len(index), 6))
+    if shape.on:
+        along = (rows @ _turned(turn, problem.ray[index])[..., None])[..., 0]
+        cross = (weighted * along[..., None]).sum(axis=1)
+        shape.add(index, weights * along, along, errors)
+    flat, straight = weighted.reshape(-1, 6), block.reshape(-1, 6)
+    lines = [slice(part.start * rows.shape[1], part.stop * rows.shape[1]) for part in matches.parts]
+    square = np.stack([flat[line].T @ straight[line] for line in lines])
+    pull = np.stack([flat[line].T @ errors.reshape(-1)[line] for line in lines])
+    back = np.zeros_like(square)
+    back[:, :3, :3] = back[:, 3:, 3:] = -turns
+    _scatter(normal, right, matches.slots, square, pull, back)
+    for i, part in enumerate(matches.parts if shape.on else ()):
+        coupling, (here, there) = shape.blocks[int(matches.sources[i])], matches.slots[i]
+        if there >= 0:
+            coupling.add(index[part], int(there), cross[part])
+        if here >= 0:
+            coupling.add(index[part], int(here), cross[part] @ back[i])
 
 
-def residual_rows(problem: Problem, sight: Sight, world: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """What is missing between world points (N, 3) and their matches.
+def _scatter(
+    normal: np.ndarray, right: np.ndarray, slots: np.ndarray, square: np.ndarray, pull: np.ndarray, back: np.ndarray
+) -> None:  # fmt: skip
+    """Add sights' products (S, 6, 6) and pulls (S, 6) on the target's pose to both poses' places, by `back` (S, 6, 6).
+
+    slots: (S, 2) places of the source's and the target's pose, -1 for one that stays.
+    """
+    forth = back.transpose(0, 2, 1)
+    blocks, rights = normal.reshape(len(right) // 6, 6, -1, 6).transpose(0, 2, 1, 3), right.reshape(-1, 6)
+    here, there = slots.T
+    at_source, at_target, at_both = here >= 0, there >= 0, (here >= 0) & (there >= 0)
+    np.add.at(blocks, (there[at_target], there[at_target]), square[at_target])
+    np.add.at(blocks, (here[at_source], here[at_source]), (forth @ square @ back)[at_source])
+    np.add.at(blocks, (there[at_both], here[at_both]), (square @ back)[at_both])
+    np.add.at(blocks, (here[at_both], there[at_both]), (forth @ square)[at_both])
+    np.add.at(rights, there[at_target], pull[at_target])
+    np.add.at(rights, here[at_source], (forth @ pull[..., None])[at_source, :, 0])
+
+
+def _turned(turn: np.ndarray, points: np.ndarray) -> np.ndarray:  # (N, 3, 3), (N, 3) -> (N, 3)
+    """Every point by its own rotation."""
+    return (turn @ points[..., None])[..., 0]
+
+
+def residual_rows(
+    problem: Problem, sight: Sight | Joined, t: int | np.ndarray, world: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """What is missing between world points (N, 3) and their matches in frame t, or each in a frame of its own, t (N,).
 
     Returns derivatives (N, R, 3) by the points, residuals (N, R) and their noise (R,): image x, y and distance to the
     target's surface, or for points of an outline only the distance across it.
     """
-    rows, errors = image_rows(problem.cameras, sight.target, world, sight.xy)
+    rows, errors = image_rows(problem.cameras, t, world, sight.xy)
     if sight.facing is not None:
-        across = np.einsum("ni,nij->nj", sight.facing, rows)[:, None]
+        across = sight.facing[:, None] @ rows
         return across, (sight.facing * errors).sum(axis=1, keepdims=True), np.array([problem.outline_sigma])
     if problem.surface_sigma <= 0:
         return rows, errors, np.full(2, problem.pixel_sigma)
-    gap = np.einsum("ni,ni->n", sight.normal, sight.surface - world)
+    gap = (sight.normal * (sight.surface - world)).sum(axis=1)
     rows = np.concatenate([rows, sight.normal[:, None]], axis=1)
     noise = np.array([problem.pixel_sigma, problem.pixel_sigma, problem.surface_sigma])
     return rows, np.concatenate([errors, gap[:, None]], axis=1), noise
 
 
-def image_rows(cameras: Cameras, t: int, world: np.ndarray, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Derivative (N, 2, 3) of image places by world points, and what is missing (N, 2) to the matched places."""
+def image_rows(
+    cameras: Cameras, t: int | np.ndarray, world: np.ndarray, xy: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Derivative (N, 2, 3) of image places by world points, and what is missing (N, 2) to the matched places.
+
+    t: the frame that all are seen in, or (N,) one each.
+    """
     pose, k = cameras.world_to_camera[t], cameras.K[t]
-    x = world @ pose[:3, :3].T + pose[:3, 3]
-    z = np.maximum(x[:, 2], 1e-6)
+    turn, focal = pose[..., :3, :3], np.stack([k[..., 0, 0], k[..., 1, 1]], axis=-1)
+    x = (turn @ world[..., None])[..., 0] + pose[..., :3, 3]
+    z = np.maximum(x[:, 2:], 1e-6)
+    scale = focal / z
     local = np.zeros((len(x), 2, 3))
-    local[:, 0, 0], local[:, 1, 1] = k[0, 0] / z, k[1, 1] / z
-    local[:, 0, 2], local[:, 1, 2] = -k[0, 0] * x[:, 0] / z**2, -k[1, 1] * x[:, 1] / z**2
-    seen = x[:, :2] / z[:, None] * [k[0, 0], k[1, 1]] + k[:2, 2]
-    return local @ pose[:3, :3], xy - seen
+    local[:, 0, 0], local[:, 1, 1] = scale.T
+    seen = x[:, :2] * scale
+    local[:, :, 2] = -seen / z
+    return local @ turn, xy - seen - k[..., :2, 2]
 
 
-def robust_weights(errors: np.ndarray, weight: np.ndarray) -> np.ndarray:  # (N, R), (N,) -> (N, R)
+def robust_weights(errors: np.ndarray, shares: np.ndarray) -> np.ndarray:  # (N, R), (N,) -> (N, R)
     """Geman-McClure weights of residuals in units of their noise; image x and y share one, the surface has its own.
 
-    Scaled so that one sight counts as at most 40 independent points.
+    shares: `Sight.shares` of the points.
     """
-    image = np.linalg.norm(errors[:, :2], axis=1)
-    kernel = np.tile(_kernel(image)[:, None], (1, errors.shape[1]))
+    kernel = np.empty_like(errors)
+    kernel[:, :2] = _kernel((errors[:, :2] ** 2).sum(axis=1))[:, None]
     if errors.shape[1] == 3:
-        kernel[:, 2] = _kernel(np.abs(errors[:, 2]))
-    return kernel * weight[:, None] * min(1.0, 40.0 / max(len(errors), 1))
+        kernel[:, 2] = _kernel(errors[:, 2] ** 2)
+    return kernel * shares[:, None]
 
 
-def _kernel(error: np.ndarray) -> np.ndarray:
-    """Geman-McClure weight, a quarter at twice the noise."""
-    return 1.0 / (1.0 + (error / 2.0) ** 2) ** 2
+def _kernel(square: np.ndarray) -> np.ndarray:
+    """Geman-McClure weight of squared errors, a quarter at twice the noise."""
+    return 1.0 / (1.0 + square / 4.0) ** 2
 
 
 def _cross_rows(rows: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Rows (N, R, 3) times the derivative of a turn about the origin of points (N, 3)."""
-    x, y, z = points[:, None].transpose(2, 0, 1)
-    a, b, c = rows.transpose(2, 0, 1)
-    return np.stack([y * c - z * b, z * a - x * c, x * b - y * a], axis=-1)
+    x, y, z = points.T[..., None]
+    a, b, c = rows[..., 0], rows[..., 1], rows[..., 2]
+    out = np.empty_like(rows)
+    out[..., 0], out[..., 1], out[..., 2] = y * c - z * b, z * a - x * c, x * b - y * a
+    return out
 
 
 def _six(slot: int) -> slice:

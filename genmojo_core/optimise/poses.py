@@ -70,6 +70,11 @@ class Sight:
     normal: np.ndarray
     facing: np.ndarray | None = None
 
+    @property
+    def shares(self) -> np.ndarray:  # (N,)
+        """Weights scaled so that one sight counts as at most 40 independent points."""
+        return self.weight * min(1.0, 40.0 / max(len(self.weight), 1))
+
 
 @dataclass(frozen=True)
 class Problem:

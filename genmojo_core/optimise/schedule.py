@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import torch
 
-from genmojo_core.config import OUTWARD_SHARE, LearningRates, RunConfig
+from genmojo_core.config import LearningRates, RunConfig, outward_reach
 from genmojo_core.optimise.vector_adam import VectorAdamW
 from genmojo_core.scene.scene4d import Scene4D
 
@@ -59,9 +59,8 @@ def frames_in_play(frames: int, centre: int, share: float, held: Sequence[int] =
     Args:
         share: 0..1 of the stage done. held: frames that never take part.
     """
-    reach = 2 + math.ceil((frames - 1) * min(1.0, share / OUTWARD_SHARE))
     everything = np.setdiff1d(np.arange(frames), held)
-    return everything[np.abs(everything - centre) <= reach]
+    return everything[np.abs(everything - centre) <= outward_reach(frames, share)]
 
 
 def draw_frames(candidates: np.ndarray, count: int, seed: int, step: int) -> list[int]:

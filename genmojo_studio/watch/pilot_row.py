@@ -38,7 +38,7 @@ class PilotRow(QWidget):
     def start(self, clip: Path, preset: str, masks: Path | None, seconds: float) -> None:
         """Runs a pilot of the clip (with corrected masks), which should take so many seconds."""
         self.said.setText(
-            tr("A pilot of a few small frames runs for about {time}, to foretell decibels better.").format(
+            tr("A pilot, the clip run small and short, takes about {time}, to foretell decibels better.").format(
                 time=spoken(seconds)
             )
         )

@@ -2232,8 +2232,8 @@
       <translation>Die Dezibel werden dann allein aus den Pixeln des Clips vorhergesagt.</translation>
     </message>
     <message>
-      <source>A pilot of a few small frames runs for about {time}, to foretell decibels better.</source>
-      <translation>Ein Probelauf mit wenigen kleinen Bildern dauert etwa {time}; er sagt die Dezibel genauer vorher.</translation>
+      <source>A pilot, the clip run small and short, takes about {time}, to foretell decibels better.</source>
+      <translation>Ein Probelauf, der Clip klein und kurz gerechnet, dauert etwa {time}; er sagt die Dezibel genauer vorher.</translation>
     </message>
     <message>
       <source>Size, Gaussians and pace are chosen so that the budget buys most.</source>

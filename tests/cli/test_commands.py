@@ -312,10 +312,10 @@ def test_a_run_that_takes_long_sends_a_pilot_ahead_unless_asked_not_to(capsys, f
     _, plain, err = run(capsys, *command, "--no-pilot")
     assert not sent and "pilot" not in err
     _, found, err = run(capsys, *command)
-    assert sent == [1] and "A pilot of a few small frames" in err and "from a pilot run" in err
+    assert sent == [1] and "A pilot, the clip run small and short" in err and "from a pilot run" in err
     assert found["forecast"]["expected_psnr"] != plain["forecast"]["expected_psnr"]
     _, _, err = run(capsys, *command)
-    assert sent == [1] and "A pilot of" not in err and "from a pilot run" in err  # it is kept
+    assert sent == [1] and "A pilot," not in err and "from a pilot run" in err  # it is kept
     known.clear()
     code, found, _ = run(capsys, "effects", clip_path, "--pilot")
     assert code == 0 and sent == [1, 1] and found["forecast"]["clip"]["reached"] == 25.0

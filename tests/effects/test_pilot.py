@@ -8,12 +8,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from genmojo_core.clip.cut import cut, picked
 from genmojo_core.config import preset
 from genmojo_core.effects import decide, forecast, pilot
 from genmojo_core.effects.difficulty import Difficulty
 from genmojo_core.effects.forecast import foretold, remainder, together, work_of
 from genmojo_core.effects.pilot import Pilot
-from genmojo_core.measure.pilot_run import blurred_psnr, keep, piloted
+from genmojo_core.measure.pilot_run import blurred_psnr, keep, piloted, small
+from genmojo_core.optimise.schedule import frames_in_play
 from tests.benchmarks import forecast as benchmark
 from tests.optimise.small_runs import small_clip
 
@@ -48,7 +50,7 @@ def test_a_pilot_replaces_the_clip_s_motion_and_says_so():
 
 
 def test_the_fit_finds_the_law_that_made_the_rows():
-    law, rows, features = np.array([-11.0, 3.0, 0.7]), [], []
+    law, rows, features = np.array([-3.0, 2.0]), [], []
     config = preset("draft", paced=True, budget_seconds=100.0)
     for name, reached, motion in (("a", 20.0, 24.0), ("b", 26.0, 27.0), ("c", 30.0, 36.0), ("d", 24.0, 31.0)):
         for steps in (50, 200, 600):
@@ -57,14 +59,46 @@ def test_the_fit_finds_the_law_that_made_the_rows():
                    "config": config.to_json(), "gaussians": 9000, "difficulty": clip.to_json(),
                    "stages": {"joint": {"steps": steps}}}  # fmt: skip
             made = benchmark.work(row)
-            features.append(forecast.pilot_features(clip, made, steps, steps))
+            features.append(forecast.pilot_features(made, steps, steps))
             gain = float(features[-1] @ law)
             limit = forecast.ceiling(clip, forecast.PILOT_SIDE)
             row["psnr"] = together(remainder(reached, limit) + gain, forecast.ceiling(clip, forecast.side_of(made)))
             rows.append(row)
     found = np.array(benchmark.pilot_law(rows))  # drawn to 0 a little: rows of so few clips say no more
-    assert np.abs(np.array(features) @ (found - law)).max() < 0.8 and found == pytest.approx(law, rel=0.2)
+    assert np.abs(np.array(features) @ (found - law)).max() < 0.3 and found[1] == pytest.approx(law[1], rel=0.2)
     assert benchmark.pilot_law([{**row, "difficulty": {"reached": None}} for row in rows]) == ()
+
+
+@pytest.mark.parametrize(("joint", "planned"), [(240, 240), (100, 240), (60, 700), (1, 700), (0, 700)])
+def test_looks_are_counted_as_the_schedule_gives_them(joint, planned):
+    """A schedule cut off early has shown many frames little or never, whatever it made of those it began with."""
+    work = work_of((64, 64), 24, 1, [], preset("draft"))
+    looks = np.zeros(24)
+    for i in range(joint):
+        there = frames_in_play(24, 12, i / planned)
+        looks[there] += min(work.views / len(there), 1.0)
+    told = forecast.pilot_features(work, joint, planned)
+    assert told[0] == 1.0 and told[1] == pytest.approx(np.log(looks + 4.0).mean(), abs=0.03)
+
+
+def test_a_pilot_looks_at_the_whole_clip():
+    clip = small_clip(frames=5)
+    assert list(small(clip).frame_index) == list(clip.frame_index)
+    assert small(clip).flow.value.shape == clip.flow.value.shape
+    few = picked(clip, [0, 2, 4])
+    assert few.flow is None and list(few.frame_index) == list(clip.frame_index[[0, 2, 4]])
+    assert few.background_frame == int(np.argmin(np.abs(np.array([0, 2, 4]) - clip.background_frame)))
+    assert np.array_equal(few.cameras.value.K, clip.cameras.value.K[[0, 2, 4]])
+    assert np.array_equal(few.masks.value, clip.masks.value[[0, 2, 4]]) and few.source_names[1] == clip.source_names[2]
+    two = cut(clip, 1, 2)
+    assert two.flow.valid[0].any() and not two.flow.valid[-1].any() and clip.flow.valid[2].any()
+
+
+def test_a_pilot_of_a_long_clip_takes_frames_evenly(monkeypatch):
+    monkeypatch.setattr(pilot, "FRAMES", 3)
+    clip = small_clip(frames=5)
+    few = small(clip)
+    assert list(few.frame_index) == list(clip.frame_index[[0, 2, 4]]) and few.flow.value.shape[0] == 3
 
 
 def test_a_pilot_pays_only_before_a_long_run():

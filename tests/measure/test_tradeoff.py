@@ -89,11 +89,12 @@ def test_costs_and_gains_are_with_minus_without_seed_by_seed():
 
 
 def test_what_a_run_took_out_of_one_step_counts_before_the_difference_of_two_runs():
-    base = row("base-0", "effect", "as planned", 25.0, 80.0, costs={"flow": 7.0})
+    base = row("base-0", "effect", "as planned", 25.0, 80.0, costs={"flow": 7.0}, term_costs={"hull": 3.0})
     without = row("effect-flow-0", "effect", "without flow", 24.5, 200.0, costs={})
     added = row("effect-shading-0", "effect", "with shading", 25.5, 20.0, costs={"flow": 7.0, "shading": 2.0})
-    found = {e["title"]: e["ms"] for e in tradeoff_figures.parts_table([base, without, added])}
-    assert found == {"flow": 7.0, "shading": 2.0}
+    less = row("loss-hull-0", "loss", "without hull", 24.9, 300.0)
+    found = {e["title"]: e["ms"] for e in tradeoff_figures.parts_table([base, without, added, less])}
+    assert found == {"flow": 7.0, "shading": 2.0, "hull": 3.0}
 
 
 def test_auto_is_compared_with_what_stood_at_its_moment():

@@ -7,6 +7,7 @@ autograd graph and its line in the measured profile.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -16,7 +17,7 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.effects.decide import ALL, NAMES
 from genmojo_core.events import Preview
 from genmojo_core.optimise import run as run_module
-from genmojo_core.optimise.cost import measured_costs
+from genmojo_core.optimise.cost import measured_costs, term_costs
 from genmojo_core.optimise.run import Run
 from tests.optimise.small_runs import small_clip, small_run
 
@@ -169,3 +170,23 @@ def test_profile_names_every_effect_with_a_part_and_changes_nothing(whole: Run) 
     assert whole.scene.layout is layout and whole.objective.tracks is tracks
     assert all(torch.equal(a, b) for a, b in zip(before, whole.scene.parameters(), strict=True))
     assert all(p.grad is None for p in whole.scene.parameters())
+
+
+def test_a_loss_term_costs_what_its_weight_of_zero_saves_and_stays_as_it_was(whole: Run) -> None:
+    weights = whole.objective.weights
+    costs = term_costs(whole.objective, [1, 2], ["hull", "rigidity", "rotation"])
+    assert set(costs) == {"hull", "rigidity", "rotation"} and all(ms >= 0 for ms in costs.values())
+    assert costs["hull"] > 0
+    assert whole.objective.weights is weights
+    assert all(p.grad is None for p in whole.scene.parameters())
+
+
+def test_terms_of_no_weight_are_not_worked_out(whole: Run) -> None:
+    parts = whole.objective.evaluate([1, 2], True, torch.Generator().manual_seed(0)).parts
+    weights = whole.objective.weights
+    none = {"rigidity": 0.0, "rotation": 0.0, "local_scale": 0.0, "delta_scale": 0.0}
+    whole.objective.weights = replace(weights, **none)
+    fewer = whole.objective.evaluate([1, 2], True, torch.Generator().manual_seed(0)).parts
+    whole.objective.weights = weights
+    assert set(parts) - set(fewer) == set(none)
+    assert all(fewer[name] == parts[name] for name in fewer)

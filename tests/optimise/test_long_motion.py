@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.clip.synthetic import Truth, generate
 from genmojo_core.clip.synthetic_specs import spec
 from genmojo_core.estimate.complete import complete
+from genmojo_core.optimise import motion_solver
 from genmojo_core.optimise.deadline import NO_DEADLINE, Deadline
 from genmojo_core.optimise.keyframes import MOST_KEYS, key_frames, spread_path
 from genmojo_core.optimise.motion import ObjectMotion, carry, initial_motion
@@ -77,6 +80,18 @@ def test_without_time_every_object_still_goes_where_its_pixels_are() -> None:
     assert errors(clip, truth, motions).mean() < 0.5 * stays.mean()
     initial_motion(clip)
     assert hurried < 0.5 * (time.perf_counter() - began - hurried)
+
+
+def test_with_little_time_poses_are_solved_together_once_and_the_bend_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A search that may not match at full resolution does so at half: near the whole search, far from none."""
+    clip, truth = small_clip(24)
+    clip = complete(clip)
+    whole = errors(clip, truth, initial_motion(clip)).mean()
+    rough = errors(clip, truth, initial_motion(clip, deadline=Deadline(time.perf_counter()))).mean()
+    monkeypatch.setattr(motion_solver, "_FINE_COST", math.inf)
+    motions = initial_motion(clip, deadline=Deadline(time.perf_counter() + 600.0))
+    assert all(m.hurried for m in motions)
+    assert errors(clip, truth, motions).mean() < whole + 0.3 * (rough - whole)
 
 
 def test_an_end_that_is_asked_for_comes_as_soon_as_a_deadline() -> None:
