@@ -14,12 +14,13 @@ import sys
 from effect_rows import full, misses, right, shared, simple, spared
 from hard_case_rows import coverage, hard, mutations, soak
 from table import Rows, main
-from tradeoff_rows import AUTO, REPORTS, forecasts
+from tradeoff_rows import AUTO, REPORTS, forecasts, told
 
 ROWS: Rows = {
     **REPORTS,
     **AUTO,
     "forecast": ("forecasts, each clip by a model of the others", forecasts),
+    "told": ("forecasts of clips that nothing was fitted on", told),
     "shared": ("evidence and decisions, shared clips", shared),
     "right": ("decisions on made clips", right),
     "spared": ("objects that stay rigid beside ones that bend", spared),
