@@ -140,11 +140,14 @@ def parts_table(rows: Sequence[Row]) -> list[dict[str, Any]]:
 def _cost(key: str, there: Row, without: Row) -> float:
     """CPU ms a step of the part that a trial is about, as the run that has it took it out of one step.
 
-    The difference between two runs, which is also what else the machine did meanwhile, where that run did not.
+    A part that such a run does not name has none in a step. The prior's views are none either, but follow each step:
+    for them, and where nothing was taken out, the difference between two runs, which other work on the machine blurs.
     """
     kind, part = key.split("-")[:2]
-    within = there.get("costs" if kind == "effect" else "term_costs", {}).get(part)
-    return float(_step_ms(there) - _step_ms(without) if within is None else within)
+    within = there.get("costs" if kind == "effect" else "term_costs")
+    if within and part != "unseen_views":
+        return float(within.get(part, 0.0))
+    return float(_step_ms(there) - _step_ms(without))
 
 
 def base_step_ms(rows: Sequence[Row]) -> float | None:

@@ -220,7 +220,7 @@ def _parts(told: Mapping[str, Any]) -> list[str]:
         f"<p class=note>Small runs (128 pixels, 1000 Gaussians per object, {told['step_ms'] or 0:.0f} ms of CPU time a "
         f"step) with one part taken away or added, equal steps, the same initial motion, {runs} "
         f"seed{'s' * (runs > 1)}. "
-        "Milliseconds of effects: taken out of one step of the run; of loss terms: between two runs. "
+        "Milliseconds: taken out of one step of the run; of unseen views: between two runs. "
         "MB: optimised numbers with gradients and moments, and channels. What it brings: with the part minus "
         "without; more dB and fewer px are better. Differences under about 0.1 dB are within one run's noise.</p>",
     ]

@@ -93,8 +93,11 @@ def test_what_a_run_took_out_of_one_step_counts_before_the_difference_of_two_run
     without = row("effect-flow-0", "effect", "without flow", 24.5, 200.0, costs={})
     added = row("effect-shading-0", "effect", "with shading", 25.5, 20.0, costs={"flow": 7.0, "shading": 2.0})
     less = row("loss-hull-0", "loss", "without hull", 24.9, 300.0)
-    found = {e["title"]: e["ms"] for e in tradeoff_figures.parts_table([base, without, added, less])}
-    assert found == {"flow": 7.0, "shading": 2.0, "hull": 3.0}
+    none = row("effect-camera_motion-0", "effect", "with camera motion", 25.0, 90.0, costs={"flow": 7.0})
+    prior = row("effect-unseen_views-0", "effect", "with unseen views", 25.0, 95.0, costs={"flow": 7.0})
+    found = {e["title"]: e["ms"] for e in tradeoff_figures.parts_table([base, without, added, less, none, prior])}
+    assert found == {"flow": 7.0, "shading": 2.0, "hull": 3.0, "camera motion": 0.0,
+                     "unseen views": pytest.approx(15.0)}  # fmt: skip
 
 
 def test_auto_is_compared_with_what_stood_at_its_moment():
