@@ -1,4 +1,5 @@
-"""How fast this machine is: a short calibration, kept in the user's cache folder under the machine's and our version.
+"""How fast this machine is: a short calibration, kept in the user's cache folder under the machine, our version and
+what speeds are compared with.
 
 The measuring itself takes optimiser steps and lies in optimise/calibrate.py; this module imports no torch.
 """
@@ -17,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from genmojo_core import __version__
+from genmojo_core.effects.forecast import REFERENCE_STEP_MS
 from genmojo_core.kernels.cache import user_cache
 
 _PROBE_SECONDS = 0.15
@@ -44,7 +46,8 @@ class Machine:
 
 def machine_file() -> Path:
     """Where this machine's calibration lies."""
-    told = (platform.node(), platform.machine(), platform.processor(), str(os.cpu_count()), __version__)
+    told = (platform.node(), platform.machine(), platform.processor(), str(os.cpu_count()), __version__,
+            str(REFERENCE_STEP_MS))  # fmt: skip
     name = hashlib.sha256("\0".join(told).encode()).hexdigest()[:16]
     return user_cache() / "genmojo" / "machines" / f"{name}.json"
 
