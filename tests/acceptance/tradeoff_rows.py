@@ -115,7 +115,7 @@ def told(bench: Bench) -> list[Check]:
         if not kept.exists():
             folder.mkdir(parents=True, exist_ok=True)
             path = _made(name, folder) if name.startswith("made-") else bench.data / name
-            options = (str(path), "--frames", frames, "--preset", "draft", "--clock", "cpu", "--json")
+            options = (str(path), "--frames", frames, "--preset", "draft", "--json")
             command = ("-m", "genmojo_core.cli.main")
             bench.python(*command, "effects", *options, "--pilot")
             found = bench.python(*command, "optimize", *options, "-o", str(folder / "scene.h5"), "--budget", "1200")
