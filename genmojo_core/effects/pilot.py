@@ -1,7 +1,7 @@
 """A pilot: the clip itself, run small and short, before a run that takes long. What it tells and when it pays.
 
 It looks at the whole clip, because what a scene reaches depends on how its objects look at both ends of it: five frames
-of the middle were given back 3 dB better than all of "bear", and as much worse than all of "cups".
+of the middle were given back 3 dB better than all of "bear", and 4 dB worse than all of "cups".
 
 The run lies in measure/pilot_run.py; this module imports no torch. Its work is bounded by frames, pixels, Gaussians and
 steps, never by time, so it says the same on every machine. Results are kept in the user's cache folder under the
