@@ -118,7 +118,8 @@ def _miss(bench: Bench, row: effect_truth.Judged) -> dict[str, float]:
         config = replace(effect_truth.config_of(made), budget_seconds=1200.0)
         found = []
         for overrides in ({}, {row.effect: row.right}):
-            plan = decide.plan(clip, config, overrides).changed(row.effect, overridden=False)  # as if evidence said so
+            plan = decide.plan(clip, config, overrides)
+            plan = plan.changed(row.effect, overridden=False)  # type: ignore[arg-type]  # as if evidence said so
             run = Run(clip, plan, config)
             ends = [event.cpu_seconds for event in run if isinstance(event, Finished)]
             found.append((reconstruction(run.bake(), clip)["psnr"], ends[0]))
