@@ -29,11 +29,12 @@ if TYPE_CHECKING:
 REFERENCE_STEP_MS = 48.0  # CPU ms of a step of optimise/calibrate.py on the reference machine
 LIFT_WORTH = 0.3  # of a joint step: what a step of the static lift does for the result
 PILOT_SIDE = 160  # pixels on the short side
+PILOT_TOGETHER, PILOT_FEWEST = 3000, 300  # Gaussians of all objects, and of each at least
 _FEW = 4.0  # looks at a frame that do what the first motion does without any
 START_SHARE = 0.8  # of the allowed Gaussians that there are on average over a run
 STEP_NAMES = ("views x pixels x channels, millions", "views x Gaussians, thousands", "views x bending Gaussians, "
               "thousands", "objects shown to the prior", "objects", "one")  # fmt: skip
-PILOT_NAMES = ("one", "ln looks at a frame, on average over frames")
+PILOT_NAMES = ("one", "ln looks at a frame, on average over frames", "ln Gaussians per object against the pilot's")
 _MOMENTS = 200  # of a run's steps at which its frames in play are counted
 _SHARPER = 1.5  # power of a pixel's size that the error of few pixels grows with, below the pilot's
 LEAST_REST = 0.35  # of a squared error: what cannot come from few pixels
@@ -99,7 +100,7 @@ class Model:
 MODEL = Model(
     step=(43.12, 0.2404, 6.319, 53.12, 6.885, 8.458), motion=(-4.692, 1.265, 1.079, 0.1671),
     decibel=(2.545, 0.5255, 2.241, 1.215, 0.0), decibel_error=2.7, seconds_error=0.19,
-    piloted=(-2.515, 1.580), piloted_error=1.1,
+    piloted=(-4.704, 2.149, 0.874), piloted_error=1.1,
 )  # fmt: skip
 
 
@@ -180,18 +181,25 @@ def decibel_features(clip: Difficulty, work: Work, steps: tuple[float, float], p
     return np.array([1.0, clip.motion, math.log(shown), math.log(min(side, 1.0)), math.log(per_object)])
 
 
-def pilot_features(work: Work, joint: float, planned: float) -> np.ndarray:  # (2,)
+def pilot_gaussians(objects: int) -> int:
+    """Gaussians that a pilot gives each of so many objects."""
+    return max(PILOT_FEWEST, PILOT_TOGETHER // max(objects, 1))
+
+
+def pilot_features(work: Work, joint: float, planned: float, per_object: int) -> np.ndarray:  # (3,)
     """What a run gains over a pilot's remainder in dB is linear in these (PILOT_NAMES).
 
     Args:
         joint: steps done. planned: of the whole schedule, of which frames come into play outward from the middle.
+        per_object: Gaussians allowed.
     """
     frames = int(work.frames)
     away, looks = np.abs(np.arange(frames) - frames // 2), np.zeros(frames)
     for share in (np.arange(_MOMENTS) + 0.5) / _MOMENTS * joint / max(planned, 1.0):
         there = away <= outward_reach(frames, share)
         looks += there * min(work.views / there.sum(), 1.0) * joint / _MOMENTS
-    return np.array([1.0, float(np.log(looks + _FEW).mean())])
+    more = math.log(per_object / pilot_gaussians(work.objects))
+    return np.array([1.0, float(np.log(looks + _FEW).mean()), more])
 
 
 def ceiling(clip: Difficulty, side: float) -> float:
@@ -268,7 +276,8 @@ def foretold(work: Work, clip: Difficulty, config: RunConfig, factor: float, mod
         features = decibel_features(clip, work, (lift, joint), config.gaussians_per_object)
         decibel, unsure = float(features @ np.array(model.decibel)), model.decibel_error
     else:
-        gain = float(pilot_features(work, joint, planned) @ np.array(model.piloted))
+        features = pilot_features(work, joint, planned, config.gaussians_per_object)
+        gain = float(features @ np.array(model.piloted))
         rest = remainder(clip.reached, ceiling(clip, PILOT_SIDE)) + gain
         decibel, unsure = together(rest, ceiling(clip, side_of(work))), model.piloted_error
     return Forecast(seconds, decibel, error, unsure, lift + joint, factor, clip)

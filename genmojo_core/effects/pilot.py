@@ -21,12 +21,11 @@ from genmojo_core import __version__
 from genmojo_core.clip.clip import Clip
 from genmojo_core.clip.resize import fitted
 from genmojo_core.config import RunConfig, preset
-from genmojo_core.effects.forecast import PILOT_SIDE, Forecast, cpu_seconds, work_of
+from genmojo_core.effects.forecast import PILOT_SIDE, Forecast, cpu_seconds, pilot_gaussians, work_of
 from genmojo_core.effects.plan import EffectPlan
 from genmojo_core.kernels.cache import user_cache
 
 FRAMES = 24  # at most; of a longer clip evenly spread
-TOGETHER = 3000  # Gaussians of all objects
 LONG = 60.0  # seconds of a run from which a pilot is worth thinking of
 SHARE = 0.1  # of the run's time: most that its pilot may take
 _AROUND = 1.5  # CPU seconds for background, bake and comparison
@@ -53,7 +52,7 @@ class Pilot:
 def pilot_config(objects: int) -> RunConfig:
     """How a pilot runs on a clip with so many objects."""
     return preset(
-        "draft", short_side=PILOT_SIDE, gaussians_per_object=max(300, TOGETHER // max(objects, 1)),
+        "draft", short_side=PILOT_SIDE, gaussians_per_object=pilot_gaussians(objects),
         background_gaussians=5000, lift_steps=30, joint_steps=80, settle_steps=30, densify_every=20,
         held_out_share=0.0, budget_seconds=math.inf,
     )  # fmt: skip

@@ -140,11 +140,15 @@ def _made(name: str, folder: Path) -> Path:
 
 
 def _judged(bench: Bench, name: str, folder: Path) -> dict[str, float]:
-    """A draft of a clip, its row in folder/rows, and the clip's pilot; both kept."""
-    row, told = folder / "rows" / "draft-whole.json", folder / "pilot.json"
-    if row.exists() and told.exists():
+    """Whole runs of a clip, their rows in folder/rows, and the clip's pilot; all kept.
+
+    Drafts, and of the reports' clips `standard` too: pilots are sent ahead of such runs, which no report has.
+    """
+    told, presets = folder / "pilot.json", ("draft", "standard") if name in CLIPS else ("draft",)
+    rows = {one: folder / "rows" / f"{one}-whole.json" for one in presets}
+    if told.exists() and all(row.exists() for row in rows.values()):
         return dict(json.loads(told.read_text()))
-    row.parent.mkdir(parents=True, exist_ok=True)
+    (folder / "rows").mkdir(parents=True, exist_ok=True)
     path = bench.data / ("cups/cups.mp4" if name == "cups" else name)
     path = _made(name, folder) if name.startswith("made-") else path
     boxes = (BOXES[name],) if name in BOXES else ()
@@ -152,7 +156,10 @@ def _judged(bench: Bench, name: str, folder: Path) -> dict[str, float]:
     runs = trials.Bench(trials.Source(str(path), (0, 24), boxes))
     clip, _ = runs.clip(config)
     pilot = piloted(clip, decide.plan(clip, config), Scorer(str(path), (0, 24), clip).measured(), lambda _: None)
-    row.write_text(json_text(runs.run(trials.Trial("draft", "preset", "draft", config), lambda _: None)))
+    for one, row in rows.items():
+        if not row.exists():
+            whole = trials.Trial(one, "preset", one, preset(one, clock="cpu", budget_seconds=1200.0, device="cpu"))
+            row.write_text(json_text(runs.run(whole, lambda _: None)))
     told.write_text(json.dumps(asdict(pilot)))
     return asdict(pilot)
 

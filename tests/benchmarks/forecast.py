@@ -39,7 +39,7 @@ from genmojo_core.effects.forecast import (
 from genmojo_core.optimise.held_out import held_frames
 
 PENALTY = np.array([0.02, 0.02, 0.02])  # of steps, pixels and Gaussians
-PILOT_PENALTY = np.array([0.0, 0.3])  # of the terms of PILOT_NAMES
+PILOT_PENALTY = np.array([0.0, 0.05, 0.05])  # of the terms of PILOT_NAMES
 ODD = 1.5  # dB from which an error counts by its size, not its square
 _HURRIED = 0.38  # of the budget: from here the motion was cut short
 
@@ -106,7 +106,7 @@ def pilot_law(rows: list[dict[str, Any]]) -> tuple[float, ...]:
     for row in rows:
         clip, made, got = Difficulty(**row["difficulty"]), work(row), seen_psnr(row)
         left = remainder(got, ceiling(clip, side_of(made)))
-        a.append(pilot_features(made, *spent(row)[1:]))
+        a.append(pilot_features(made, *spent(row)[1:], row["config"]["gaussians_per_object"]))
         b.append(left - remainder(clip.reached or 0.0, ceiling(clip, PILOT_SIDE)))
         weight.append(10 ** ((got - left) / 10) / sum(other["clip"] == row["clip"] for other in rows))
     features, gained, law = np.array(a), np.array(b), np.zeros(len(a[0]))
