@@ -1,14 +1,15 @@
-"""What estimates and runs tell a person beside their results, each sentence once.
+"""What estimates, runs and edits tell a person, each sentence once.
 
-Events, scene files and JSON hold the English words, made by `say`. Who shows them in another language finds the
-sentence again that some words were made from: `translated`.
+Events, scene files, JSON and the history of a project hold the English words, made by `say`. Who shows them in another
+language finds the sentence again that some words were made from: `translated`. Values called `name` are what people
+called something and stay as they are; other values may be sentences themselves.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from functools import cache
+from functools import cache, lru_cache
 from string import Formatter
 
 SENTENCES: dict[str, str] = {
@@ -60,6 +61,71 @@ SENTENCES: dict[str, str] = {
     "gradients_left_out": "{count} gradients of {what} of {name} were not finite and were left out",
     "limited": "{count} {what} of {name} were limited to +-{limit:g}",
     "made_unit": "{count} quaternions of {name} were made unit ones",
+    # what an edit of tracks is called in the history (`Edit.title`); projects keep these words for ever
+    "point_of": "point {number} of {name}",
+    "object_number": "object {number}",
+    "frame": "frame {first}",
+    "frames": "frames {first} to {last}",
+    "place": "Place {point}",
+    "delete_key": "Delete the key of {point}",
+    "visible": "{point} visible, {frames}",
+    "occluded": "{point} occluded, {frames}",
+    "out_of_view": "{point} out of view, {frames}",
+    "not_annotated": "{point} not annotated, {frames}",
+    "uncertain": "{point} uncertain, {frames}",
+    "certain": "{point} certain, {frames}",
+    "accept_point": "Accept {point}",
+    "accept_points": "Accept {count} points",
+    "reopen_points": "Reopen {count} points",
+    "fill_mode": "Fill mode of {point}",
+    "solve": "Solve {point}",
+    "solve_tracks": "Solve {count} tracks",
+    "seed": "Seed {count} tracks",
+    "seed_by": "Seed {count} tracks by {name}",
+    "merge": "Merge {count} tracks",
+    "import": "Import {count} tracks",
+    "set_objects": "Set objects",
+    "candidates": "Candidates from the masks",
+    "cut_out": "Cut out {name}",
+    "choose_object": "Choose {name}",
+    "reject_object": "Reject {name}",
+    "name_object": "Name {name}",
+    "order_objects": "Order of objects",
+    "most_objects": "At most {count} objects",
+    "most_points": "At most {count} points each",
+    "add_point": "Add point {number}",
+    "delete_point": "Delete point {number}",
+    "change_point": "Change point {number}",
+    "name_points": "Name points",
+    "swap": "Swap point {one} and point {other}",
+    "split": "Split point {number} at frame {frame}",
+    "join": "Join point {one} and point {other}",
+    "lock": "Lock",
+    "unlock": "Unlock",
+    "note": "Note",
+    "set_note": "Set {what}",
+    "consent": "consent",
+    "needs_fix": "Needs fix: {reason}",
+    "fixed": "Fixed",
+    "approve": "Approve",
+    "reject": "Reject",
+    # why a reviewer returns a track (`annotation.REASONS`)
+    "fault_drift": "drift",
+    "fault_jump": "jump",
+    "fault_swap": "swap",
+    "fault_occlusion": "occlusion wrong",
+    "fault_part": "wrong part",
+    "fault_imprecise": "imprecise",
+    # why a place of a track is suspicious (`suspicion.SIGNALS`)
+    "doubt_motion": "sudden motion",
+    "doubt_links": "neighbouring frames contradict it",
+    "doubt_look": "looks different from its keys",
+    "doubt_trackers": "trackers disagree",
+    "doubt_mask": "contradicts the object's mask",
+    "doubt_affine": "moves unlike the other points of the object",
+    "doubt_flicker": "state changes back and forth",
+    "doubt_confidence": "the tracker is unsure",
+    "doubt_keys": "far from any key",
 }
 
 
@@ -68,17 +134,33 @@ def say(key: str, **values: object) -> str:
     return SENTENCES[key].format(**values)
 
 
-def translated(words: str, translate: Callable[[str], str]) -> str:
+def translated(words: str, translate: Callable[[str], str], point: str = ".") -> str:
     """Words of `say` in the language of `translate`, which is given the sentence; values that are sentences likewise.
 
-    Words that no sentence gives come back as they are.
+    Words that no sentence gives come back as they are. `point` is that language's decimal point.
     """
+    template, values = _origin(words)
+    if not template:
+        return words
+    numbers = _numbers(template)
+
+    def shown(name: str, value: str) -> str:
+        if name == "name":
+            return value
+        return value.replace(".", point) if name in numbers else translated(value, translate, point)
+
+    plain = re.sub(r"\{(\w+)[^}]*\}", r"{\1}", translate(template))  # numbers are in words already
+    return plain.format(**{name: shown(name, value) for name, value in values.items()})
+
+
+@lru_cache(maxsize=4096)
+def _origin(words: str) -> tuple[str, dict[str, str]]:
+    """The sentence that some words were made from, and its values in words; "" if there is none."""
     for template, pattern in _patterns():
         found = pattern.fullmatch(words)
         if found is not None:
-            plain = re.sub(r"\{(\w+)[^}]*\}", r"{\1}", translate(template))  # numbers are in words already
-            return plain.format(**{name: translated(value, translate) for name, value in found.groupdict().items()})
-    return words
+            return template, found.groupdict()
+    return "", {}
 
 
 @cache
@@ -86,8 +168,13 @@ def _patterns() -> list[tuple[str, re.Pattern[str]]]:
     """Every sentence with an expression that finds its values; those with most words of their own first."""
     made = []
     for template in SENTENCES.values():
-        parts = [
-            re.escape(words) + (f"(?P<{name}>.+?)" if name else "") for words, name, _, _ in Formatter().parse(template)
-        ]
-        made.append((template, re.compile("".join(parts), re.DOTALL)))
-    return sorted(made, key=lambda one: -len(one[1].pattern))
+        parts = list(Formatter().parse(template))
+        pattern = "".join(re.escape(own) + (f"(?P<{name}>.+?)" if name else "") for own, name, _, _ in parts)
+        made.append((sum(len(own) for own, *_ in parts), template, re.compile(pattern, re.DOTALL)))
+    return [(template, pattern) for _, template, pattern in sorted(made, key=lambda one: -one[0])]
+
+
+@cache
+def _numbers(template: str) -> set[str]:
+    """Names of the values that are numbers with decimals."""
+    return {name for _, name, spec, _ in Formatter().parse(template) if name and spec and spec[-1] in "efg%"}

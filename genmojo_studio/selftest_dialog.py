@@ -22,7 +22,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import decimal, tr
 
 _BROKEN = QColor(220, 70, 60)
 _PERCENT = re.compile(r"(\d+)%")
@@ -88,7 +88,7 @@ class SelftestDialog(QDialog):
         for one in told["verdicts"]:
             verdict = tr("holds") if one["holds"] else tr("broken")
             happened = " ".join(str(one["happened"]).split())
-            item = QTreeWidgetItem([one["row"], one["name"], happened, verdict, f"{one['seconds']:.1f}"])
+            item = QTreeWidgetItem([one["row"], one["name"], happened, verdict, decimal(one["seconds"], ".1f")])
             item.setToolTip(2, happened)
             if not one["holds"]:
                 item.setForeground(3, _BROKEN)

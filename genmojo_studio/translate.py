@@ -6,7 +6,10 @@
 
 from __future__ import annotations
 
+from numbers import Integral, Real
 from pathlib import Path
+from string import Formatter
+from typing import Any
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
@@ -17,14 +20,42 @@ FOLDER = Path(__file__).resolve().parent.parent / "resources" / "translations"
 LANGUAGES = {"en": "English", "de": "Deutsch"}
 
 
+class _Text(str):
+    """A text into which numbers are put with the decimal point of the person's language."""
+
+    __slots__ = ()
+
+    def format(self, *args: Any, **values: Any) -> str:
+        return _FORMATTER.vformat(self, args, values)
+
+
+class _Formatter(Formatter):
+    def format_field(self, value: Any, format_spec: str) -> str:
+        words = str(super().format_field(value, format_spec))
+        if isinstance(value, Real) and not isinstance(value, Integral):
+            return words.replace(".", QLocale().decimalPoint())
+        return words
+
+
+_FORMATTER = _Formatter()
+
+
 def tr(text: str) -> str:
-    """A text in the person's language; English where nobody has translated it."""
-    return QCoreApplication.translate(CONTEXT, text)
+    """A text in the person's language, whose `format` writes numbers as that language does.
+
+    English where nobody has translated it.
+    """
+    return _Text(QCoreApplication.translate(CONTEXT, text))
+
+
+def decimal(value: float, spec: str) -> str:
+    """A number as `format` writes it, with the decimal point of the person's language."""
+    return _FORMATTER.format_field(value, spec)
 
 
 def told(words: str) -> str:
-    """What a run told in English (genmojo_core/sentences.py), in the person's language."""
-    return translated(words, tr)
+    """What the core told in English (genmojo_core/sentences.py), in the person's language."""
+    return translated(words, tr, QLocale().decimalPoint())
 
 
 def mark(text: str) -> str:

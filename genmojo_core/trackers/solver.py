@@ -15,6 +15,7 @@ import numpy as np
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
+from genmojo_core.sentences import say
 from genmojo_core.trackers.evidence import evidence_of
 from genmojo_core.trackers.object_motion import ObjectMotion
 from genmojo_core.trackers.segment_solver import SPANS, solve_points
@@ -69,7 +70,7 @@ class SolveAnswer:
             if track in annotation.tracks and _same_keys(annotation.track(track), asked):
                 parts.append(keys.solved(annotation, track, frames, cells))
         made = [part for part in parts if part.changes]
-        title = made[0].title if len(made) == 1 else f"Solve {len(made)} tracks"
+        title = made[0].title if len(made) == 1 else say("solve_tracks", count=len(made))
         return join("solve", title, made)
 
 

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from genmojo_core.errors import GenmojoError
+from genmojo_core.sentences import say
 from genmojo_core.tracks.annotation import Annotation, Cells
 from genmojo_core.tracks.edits import Edit, cells_change
 from genmojo_core.tracks.metrics import track_metrics
@@ -121,7 +122,7 @@ def merge(mine: Annotation, theirs: Annotation, runs: list[MergeRun], choices: M
     changes = [cells_change(mine, track, frames, cells) for track, cells in taken.items()]
     made = tuple(c for c in changes if c is not None)
     where = (int(made[0].frames[0]), made[0].track) if made else (None, None)
-    return Edit("merge", f"Merge {len(made)} tracks", made, *where)
+    return Edit("merge", say("merge", count=len(made)), made, *where)
 
 
 def _figures(predicted: PointTracks, truth: PointTracks) -> dict[str, float]:

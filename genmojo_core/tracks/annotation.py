@@ -14,6 +14,7 @@ from typing import Any, Literal
 import numpy as np
 
 from genmojo_core.errors import GenmojoError
+from genmojo_core.sentences import say
 from genmojo_core.tracks.model import NONE, VISIBLE, PointTracks
 
 KEY, UNCERTAIN, CONFIRMED, SNAPPED, PAINTED = 1, 2, 4, 8, 16  # flags: a person placed it; ...; gave its state
@@ -22,7 +23,8 @@ BY_TRACKER, BY_LINE, BY_HOLD = 0, 1, 2  # mode of the segment that begins at a k
 
 ObjectStatus = Literal["candidate", "chosen", "rejected"]
 Review = Literal["draft", "in_progress", "needs_fix", "fixed", "approved", "rejected"]
-REASONS = ("drift", "jump", "swap", "occlusion wrong", "wrong part", "imprecise")  # why a reviewer returns a track
+_FAULTS = ("drift", "jump", "swap", "occlusion", "part", "imprecise")
+REASONS = tuple(say(f"fault_{name}") for name in _FAULTS)  # why a reviewer returns a track
 
 
 @dataclass(frozen=True)

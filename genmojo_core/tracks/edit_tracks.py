@@ -8,16 +8,17 @@ from typing import Any
 import numpy as np
 
 from genmojo_core.errors import GenmojoError
+from genmojo_core.sentences import say
 from genmojo_core.tracks.annotation import REASONS, Annotation, Cells, ObjectInfo, TrackInfo
 from genmojo_core.tracks.edits import CellsChange, Edit, MetaChange, ObjectChange, TrackChange, cells_change
 from genmojo_core.tracks.model import NONE
 
 
-def put_objects(annotation: Annotation, objects: list[ObjectInfo], title: str = "Set objects") -> Edit:
+def put_objects(annotation: Annotation, objects: list[ObjectInfo], title: str = "") -> Edit:
     """Make objects, or give existing ones (same id) another description."""
     changes = tuple(ObjectChange(o.id, annotation.objects.get(o.id), o) for o in objects
                     if annotation.objects.get(o.id) != o)  # fmt: skip
-    return Edit("objects", title, changes)
+    return Edit("objects", title or say("set_objects"), changes)
 
 
 def add_track(annotation: Annotation, object_id: int, number: int, person: str = "", name: str = "") -> Edit:
@@ -32,7 +33,7 @@ def add_track(annotation: Annotation, object_id: int, number: int, person: str =
     track = annotation.new_track_id()
     info = TrackInfo(track, object_id, number, name, person)
     last = MetaChange("last_track", annotation.meta.get("last_track"), str(track))
-    return Edit("track", f"Add point {number}", (last, TrackChange(track, None, info)), 0, track)
+    return Edit("track", say("add_point", number=number), (last, TrackChange(track, None, info)), 0, track)
 
 
 def delete_track(annotation: Annotation, track: int) -> Edit:
@@ -40,7 +41,8 @@ def delete_track(annotation: Annotation, track: int) -> Edit:
     info = _unlocked(annotation, track)
     cells = cells_change(annotation, track, np.arange(annotation.frames), Cells.empty(annotation.frames))
     gone = TrackChange(track, info, None)
-    return Edit("delete", f"Delete point {info.number}", (gone,) if cells is None else (cells, gone), 0, track)
+    changes = (gone,) if cells is None else (cells, gone)
+    return Edit("delete", say("delete_point", number=info.number), changes, 0, track)
 
 
 def update_track(annotation: Annotation, track: int, title: str = "", frame: int | None = None, **fields: Any) -> Edit:
@@ -48,7 +50,7 @@ def update_track(annotation: Annotation, track: int, title: str = "", frame: int
     info = annotation.tracks[track] if track in annotation.tracks else _unlocked(annotation, track)
     new = replace(info, **fields)
     changes = (TrackChange(track, info, new),) if new != info else ()
-    return Edit("track", title or f"Change point {info.number}", changes, frame, track)
+    return Edit("track", title or say("change_point", number=info.number), changes, frame, track)
 
 
 def needs_fix(annotation: Annotation, track: int, reason: str, run: tuple[int, int], reviewer: str, note: str) -> Edit:
@@ -56,14 +58,14 @@ def needs_fix(annotation: Annotation, track: int, reason: str, run: tuple[int, i
     if reason not in REASONS:
         raise GenmojoError("argument", f"'{reason}' is no reason", hint=f"use {', '.join(REASONS)}")
     rounds = annotation.tracks[track].rounds + 1
-    return update_track(annotation, track, f"Needs fix: {reason}", run[0], review="needs_fix", reason=reason, run=run,
-                        reviewer=reviewer, note=note, rounds=rounds, locked=False)  # fmt: skip
+    return update_track(annotation, track, say("needs_fix", reason=reason), run[0], review="needs_fix", reason=reason,
+                        run=run, reviewer=reviewer, note=note, rounds=rounds, locked=False)  # fmt: skip
 
 
 def fixed(annotation: Annotation, track: int) -> Edit:
     """The annotator answers: the spot was worked on."""
     run = annotation.tracks[track].run
-    return update_track(annotation, track, "Fixed", run[0] if run else 0, review="fixed")
+    return update_track(annotation, track, say("fixed"), run[0] if run else 0, review="fixed")
 
 
 def approve(annotation: Annotation, track: int, reviewer: str) -> Edit:
@@ -75,13 +77,13 @@ def approve(annotation: Annotation, track: int, reviewer: str) -> Edit:
     if len(blank):
         raise GenmojoError("argument", f"track {track} says nothing about frame {blank[0]} and {len(blank) - 1} others",
                            hint="annotate them first")  # fmt: skip
-    return update_track(annotation, track, "Approve", 0, review="approved", reviewer=reviewer, reason="", run=None,
-                        note="", locked=True)  # fmt: skip
+    return update_track(annotation, track, say("approve"), 0, review="approved", reviewer=reviewer, reason="",
+                        run=None, note="", locked=True)  # fmt: skip
 
 
 def reject(annotation: Annotation, track: int, reviewer: str, note: str) -> Edit:
     """A reviewer gives a track up."""
-    return update_track(annotation, track, "Reject", 0, review="rejected", reviewer=reviewer, note=note)
+    return update_track(annotation, track, say("reject"), 0, review="rejected", reviewer=reviewer, note=note)
 
 
 def swap(annotation: Annotation, one: int, other: int, first: int, last: int) -> Edit:
@@ -89,7 +91,7 @@ def swap(annotation: Annotation, one: int, other: int, first: int, last: int) ->
     frames = np.arange(first, last + 1)
     a, b = (_checked_cells(annotation, track, first, last) for track in (one, other))
     changes = [cells_change(annotation, one, frames, b), cells_change(annotation, other, frames, a)]
-    title = f"Swap {_number(annotation, one)} and {_number(annotation, other)}"
+    title = say("swap", one=annotation.tracks[one].number, other=annotation.tracks[other].number)
     return Edit("swap", title, tuple(c for c in changes if c is not None), first, one)
 
 
@@ -103,7 +105,8 @@ def split(annotation: Annotation, track: int, t: int, number: int) -> Edit:
     if away is None:
         raise GenmojoError("argument", f"track {track} has nothing from frame {t} on")
     moved = _onto_empty(int(made.track or 0), frames, tail)
-    return Edit("split", f"Split point {info.number} at frame {t}", (*made.changes, away, moved), t, made.track)
+    title = say("split", number=info.number, frame=t)
+    return Edit("split", title, (*made.changes, away, moved), t, made.track)
 
 
 def join_tracks(annotation: Annotation, one: int, other: int) -> Edit:
@@ -112,10 +115,10 @@ def join_tracks(annotation: Annotation, one: int, other: int) -> Edit:
     frames = np.flatnonzero((mine.state == NONE) & (theirs.state != NONE))
     taken = cells_change(annotation, one, frames, annotation.cells(other, frames))
     _unlocked(annotation, one)
+    title = say("join", one=annotation.tracks[one].number, other=annotation.tracks[other].number)
     gone = delete_track(annotation, other)
     changes = gone.changes if taken is None else (taken, *gone.changes)
-    return Edit("join", f"Join {_number(annotation, one)} and {_number(annotation, other)}", changes,
-                int(frames[0]) if len(frames) else 0, one)  # fmt: skip
+    return Edit("join", title, changes, int(frames[0]) if len(frames) else 0, one)
 
 
 def _onto_empty(track: int, frames: np.ndarray, cells: Cells) -> CellsChange:
@@ -139,8 +142,3 @@ def _unlocked(annotation: Annotation, track: int) -> TrackInfo:
     if info.locked:
         raise GenmojoError("argument", f"track {track} is locked", hint="unlock it first")
     return info
-
-
-def _number(annotation: Annotation, track: int) -> str:
-    """ "point 2"."""
-    return f"point {annotation.tracks[track].number}"

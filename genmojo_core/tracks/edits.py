@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from genmojo_core.sentences import say
 from genmojo_core.tracks.annotation import Annotation, Cells, ObjectInfo, Touched, TrackInfo
 
 
@@ -60,7 +61,7 @@ class Edit:
 
     Args:
         kind: short name, e.g. "key", "states", "solve".
-        title: what a person reads in the history, e.g. "Place point 2 of dog".
+        title: what the history keeps, English words of `sentences.say`, e.g. "Place point 2 of dog".
         changes: in the order they are done.
         frame, track: where to look when it is done or undone; None if nowhere in particular.
         machine: made by a tracker, not by a person.
@@ -104,7 +105,7 @@ def join(kind: str, title: str, parts: list[Edit]) -> Edit:
 
 def set_meta(annotation: Annotation, key: str, value: str | None) -> Edit:
     """Set or remove (None) a note about the whole annotation, e.g. "consent"."""
-    return Edit("note", f"Set {key}", (MetaChange(key, annotation.meta.get(key), value),))
+    return Edit("note", say("set_note", what=key), (MetaChange(key, annotation.meta.get(key), value),))
 
 
 def _apply(annotation: Annotation, changes: tuple[Change, ...], forward: bool) -> Touched:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from genmojo_core.errors import GenmojoError
+from genmojo_core.sentences import say
 from genmojo_core.tracks.annotation import (
     BY_TRACKER,
     CONFIRMED,
@@ -26,7 +27,7 @@ from genmojo_core.tracks.interpolate import between, carried
 from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
 
 GAP = 3  # frames between two visits that are taken to go on as both of them
-STATE_NAMES = {NONE: "not annotated", VISIBLE: "visible", OCCLUDED: "occluded", OUT_OF_VIEW: "out of view"}
+_PAINTED = {NONE: "not_annotated", VISIBLE: "visible", OCCLUDED: "occluded", OUT_OF_VIEW: "out_of_view"}
 
 
 def set_key(
@@ -59,7 +60,7 @@ def set_key(
         new.flags[t] |= PAINTED
     new.source[t], new.conf[t] = HUMAN, 1.0
     new = _by_rule(new, [k for k in (previous, t, following) if k is not None])
-    return _edit(annotation, "key", f"Place {_name(annotation, track)}", track, t, new)
+    return _edit(annotation, "key", say("place", point=_name(annotation, track)), track, t, new)
 
 
 def remove_key(annotation: Annotation, track: int, t: int) -> Edit:
@@ -71,12 +72,13 @@ def remove_key(annotation: Annotation, track: int, t: int) -> Edit:
     new.flags[t] &= 0xFF ^ (KEY | CONFIRMED | SNAPPED)
     new.conf[t], new.mode[t] = 0.5, BY_TRACKER
     around = [k for k in _neighbours(annotation, track, t) if k is not None]
-    return _edit(annotation, "unkey", f"Delete the key of {_name(annotation, track)}", track, t, _by_rule(new, around))
+    title = say("delete_key", point=_name(annotation, track))
+    return _edit(annotation, "unkey", title, track, t, _by_rule(new, around))
 
 
 def set_state(annotation: Annotation, track: int, first: int, last: int, state: int) -> Edit:
     """Paint a state over frames first..last; positions stay. NONE also takes keys and positions away."""
-    if state not in STATE_NAMES:
+    if state not in _PAINTED:
         raise GenmojoError("argument", f"there is no state {state}")
     cells = _open(annotation, track, first, last)
     new, run = cells.copy(), slice(first, last + 1)
@@ -87,7 +89,7 @@ def set_state(annotation: Annotation, track: int, first: int, last: int, state: 
         lost = np.flatnonzero(cells.state[run] == NONE) + first
         new.xy[lost] = _nearest_known(annotation, cells, lost)
         new.state[run], new.flags[run] = state, new.flags[run] | PAINTED
-    title = f"{_name(annotation, track)} {STATE_NAMES[state]}, {_frames(first, last)}"
+    title = say(_PAINTED[state], point=_name(annotation, track), frames=_frames(first, last))
     return _edit(annotation, "states", title, track, first, new)
 
 
@@ -96,7 +98,7 @@ def set_uncertain(annotation: Annotation, track: int, first: int, last: int, on:
     cells = _open(annotation, track, first, last)
     new, run = cells.copy(), slice(first, last + 1)
     new.flags[run] = new.flags[run] | UNCERTAIN if on else new.flags[run] & (0xFF ^ UNCERTAIN)
-    title = f"{_name(annotation, track)} {'uncertain' if on else 'certain'}, {_frames(first, last)}"
+    title = say("uncertain" if on else "certain", point=_name(annotation, track), frames=_frames(first, last))
     return _edit(annotation, "uncertain", title, track, first, new)
 
 
@@ -119,7 +121,10 @@ def confirm(annotation: Annotation, tracks: list[int], t: int, on: bool = True) 
             cells.flags[here] &= 0xFF ^ CONFIRMED
         changes.append(cells_change(annotation, track, frames, cells))
     made = tuple(c for c in changes if c is not None)
-    title = f"{'Accept' if on else 'Reopen'} {len(made)} points"
+    if on and len(made) == 1:
+        title = say("accept_point", point=_name(annotation, made[0].track))
+    else:
+        title = say("accept_points" if on else "reopen_points", count=len(made))
     return Edit("confirm", title, made, t, made[0].track if made else None)
 
 
@@ -132,7 +137,7 @@ def set_mode(annotation: Annotation, track: int, t: int, mode: int) -> Edit:
     new = cells.copy()
     new.mode[start] = mode
     new = _by_rule(new, [k for k in (start, end) if k is not None])
-    return _edit(annotation, "mode", f"Fill mode of {_name(annotation, track)}", track, t, new)
+    return _edit(annotation, "mode", say("fill_mode", point=_name(annotation, track)), track, t, new)
 
 
 def clear(annotation: Annotation, track: int, first: int, last: int) -> Edit:
@@ -159,8 +164,8 @@ def solved(annotation: Annotation, track: int, frames: np.ndarray, cells: Cells,
     new = Cells(xy, state, flags, cells.source, cells.conf.astype(np.float32), now.mode[frames])
     change = cells_change(annotation, track, frames, new)
     where = int(change.frames[0]) if change is not None else None
-    return Edit("solve", title or f"Solve {_name(annotation, track)}", (change,) if change is not None else (), where,
-                track, machine=True)  # fmt: skip
+    title = title or say("solve", point=_name(annotation, track))
+    return Edit("solve", title, (change,) if change is not None else (), where, track, machine=True)
 
 
 def accept(annotation: Annotation, proposals: dict[int, Proposal], source: int) -> Edit:
@@ -173,7 +178,7 @@ def accept(annotation: Annotation, proposals: dict[int, Proposal], source: int) 
         parts.append(solved(annotation, track, frames, cells))
     name = next(iter(proposals.values())).tracker if proposals else "nothing"
     made = [part for part in parts if part.changes]
-    return join("seed", f"Seed {len(made)} tracks by {name}", made)
+    return join("seed", say("seed_by", count=len(made), name=name), made)
 
 
 def _close_gaps(cells: Cells, here: int) -> None:
@@ -246,9 +251,10 @@ def _name(annotation: Annotation, track: int) -> str:
     """What a person calls a track."""
     info = annotation.tracks[track]
     owner = annotation.objects.get(info.object)
-    return info.name or f"point {info.number} of {owner.name if owner else f'object {info.object}'}"
+    called = owner.name if owner else say("object_number", number=info.object)
+    return info.name or say("point_of", number=info.number, name=called)
 
 
 def _frames(first: int, last: int) -> str:
     """ "frame 3" or "frames 3 to 8"."""
-    return f"frame {first}" if first == last else f"frames {first} to {last}"
+    return say("frame", first=first) if first == last else say("frames", first=first, last=last)

@@ -11,6 +11,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from genmojo_core.sentences import say
 from genmojo_core.tracks.annotation import CONFIRMED, KEY, PAINTED, Annotation, Cells
 from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE
 from genmojo_core.tracks.signals import (
@@ -26,16 +27,11 @@ from genmojo_core.tracks.signals import (
     other_tracker,
 )
 
-SIGNALS = MappingProxyType({
-    "motion": "sudden motion", "links": "neighbouring frames contradict it", "look": "looks different from its keys",
-    "trackers": "trackers disagree", "mask": "contradicts the object's mask",
-    "affine": "moves unlike the other points of the object", "flicker": "state changes back and forth",
-    "confidence": "the tracker is unsure", "keys": "far from any key",
-})  # fmt: skip
 TRUST = MappingProxyType({
     "motion": 0.75, "links": 0.8, "look": 0.35, "trackers": 0.5, "mask": 0.9, "affine": 0.7, "flicker": 0.6,
     "confidence": 0.3, "keys": 0.1,
 })  # fmt: skip
+SIGNALS = MappingProxyType({name: say(f"doubt_{name}") for name in TRUST})  # in words
 SUSPICIOUS = 0.5  # score from which a frame is worth a visit of its own
 RUN = 4  # frames that one visit shows where nothing is suspicious, and twice as many where something is
 _LOOKED_AT = 0.25  # share of the suspicion that is left where a person accepted the place

@@ -15,7 +15,7 @@ from genmojo_studio.annotate.canvas import Tool
 from genmojo_studio.annotate.dialogs import Dialogs
 from genmojo_studio.annotate.going import Going
 from genmojo_studio.annotate.session import TRAILS
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import decimal, tr
 
 if TYPE_CHECKING:
     from genmojo_studio.annotate.workspace import AnnotateWorkspace
@@ -359,4 +359,4 @@ class Hands:
 def position_text(x: float, y: float, size: tuple[int, int]) -> str:
     """Raster position for the status line, "" outside the frame."""
     inside = 0 <= x <= size[0] and 0 <= y <= size[1] and np.isfinite([x, y]).all()
-    return f"x {x:.2f}   y {y:.2f}" if inside else ""
+    return f"x {decimal(x, '.2f')}   y {decimal(y, '.2f')}" if inside else ""

@@ -18,7 +18,7 @@ from genmojo_studio.annotate import track_files, verbs
 from genmojo_studio.annotate.log_dialog import LogDialog
 from genmojo_studio.annotate.merge_dialog import MergeDialog
 from genmojo_studio.annotate.seed_dialog import SeedDialog
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import told, tr
 
 if TYPE_CHECKING:
     from genmojo_studio.annotate.workspace import AnnotateWorkspace
@@ -42,7 +42,7 @@ class Dialogs:
         """What is wrong, by a key from 1 to 6; the run marked, or this frame, is meant."""
         menu = QMenu(tr("What is wrong?"), self._w)
         for n, reason in enumerate(REASONS):
-            menu.addAction(f"&{n + 1}  {tr(reason)}")
+            menu.addAction(f"&{n + 1}  {told(reason)}")
         at = self._w.canvas.mapToGlobal(QPoint(self._w.canvas.width() // 2 - 80, self._w.canvas.height() // 3))
         chosen = menu.exec(at)
         if chosen is not None:

@@ -10,7 +10,7 @@ from genmojo_core.tracks.suspicion import Spot
 from genmojo_studio.annotate import verbs
 from genmojo_studio.annotate.play_panel import Player
 from genmojo_studio.annotate.session import Session
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import told, tr
 
 
 class Going:
@@ -118,7 +118,7 @@ class Going:
     def _show(self, spot: Spot) -> None:
         self._s.select_track(spot.track)
         self._s.go(spot.frame, jump=True)
-        self._s.said.emit(", ".join(spot.reasons[:2]))
+        self._s.said.emit(", ".join(map(told, spot.reasons[:2])))
 
 
 def worst_runs(doubt: np.ndarray, least: float = 0.3) -> list[tuple[int, int, int]]:

@@ -21,11 +21,12 @@ from PySide6.QtWidgets import (
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store import time_sheet
+from genmojo_core.store.project_log import Row
 from genmojo_core.tracks.statistics import clip_figures
 from genmojo_studio import notify
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.track_tree import review_name
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import decimal, told, tr
 
 _MOST = 2000  # rows of the log that are shown; all are exported
 
@@ -42,11 +43,11 @@ class LogDialog(QDialog):
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
         self.tabs.addTab(_table([tr("figure"), tr("value")], _figures(session)), tr("Clip"))
-        sheets = [[d.person, d.day, f"{d.seconds / 60:.1f}", str(d.edits), str(d.keys), str(d.undone)]
+        sheets = [[d.person, d.day, decimal(d.seconds / 60, ".1f"), str(d.edits), str(d.keys), str(d.undone)]
                   for d in time_sheet.time_sheet(rows)]  # fmt: skip
         titles = [tr("person"), tr("day"), tr("minutes"), tr("edits"), tr("keys"), tr("undone")]
         self.tabs.addTab(_table(titles, sheets), tr("Time sheet"))
-        shown = [[str(r.seq), r.title, r.who, r.at.replace("T", " ")[:19], "" if r.frame is None else str(r.frame)]
+        shown = [[str(r.seq), _done(r), r.who, r.at.replace("T", " ")[:19], "" if r.frame is None else str(r.frame)]
                  for r in rows[-_MOST:][::-1]]  # fmt: skip
         self.tabs.addTab(_table(["#", tr("what"), tr("who"), tr("when"), tr("frame")], shown), tr("Audit log"))
         consent = session.annotation.meta.get("consent") == "yes"
@@ -84,6 +85,14 @@ class LogDialog(QDialog):
             notify.tell(error, self)
 
 
+def _done(row: Row) -> str:
+    """What a row of the log did, in the person's language."""
+    if row.verb == "checkpoint":
+        return tr("Named: {name}").format(name=row.title)
+    sentence = {"undo": tr("Undone: {title}"), "redo": tr("Done again: {title}")} if row.verb == "move" else {}
+    return sentence.get(row.kind, "{title}").format(title=told(row.title))
+
+
 def _figures(session: Session) -> list[list[str]]:
     """Figures of the whole clip as rows of title and value."""
     f = clip_figures(session.annotation)
@@ -92,9 +101,12 @@ def _figures(session: Session) -> list[list[str]]:
         (tr("occluded"), "occluded"), (tr("out of view"), "out_of_view"), (tr("uncertain"), "uncertain"),
     )  # fmt: skip
     rows = [[tr("objects"), str(f["objects"])], [tr("tracks"), str(f["tracks"])],
-            [tr("keys per track (mean)"), f"{f.get('keys', 0):.1f}"]]  # fmt: skip
-    rows += [[title, f"{f[name]:.1%}"] for title, name in shares if name in f]
-    rows += [[tr("motion at 256 x 256"), f"{f['motion']:.2f} px"], [tr("tracks sent back"), f"{f['reopened']:.0%}"]]
+            [tr("keys per track (mean)"), decimal(f.get("keys", 0.0), ".1f")]]  # fmt: skip
+    rows += [[title, decimal(f[name], ".1%")] for title, name in shares if name in f]
+    rows += [
+        [tr("motion at 256 x 256"), f"{decimal(f['motion'], '.2f')} px"],
+        [tr("tracks sent back"), f"{f['reopened']:.0%}"],
+    ]
     return rows + [[review_name(name), str(count)] for name, count in f["reviews"].items()]
 
 

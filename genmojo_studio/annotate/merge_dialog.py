@@ -24,7 +24,7 @@ from genmojo_core.tracks.agreement import Choice, MergeRun
 from genmojo_core.tracks.annotation import Annotation
 from genmojo_core.tracks.edits import Edit
 from genmojo_studio.annotate.session import Session
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import decimal, tr
 
 _CHOICES: tuple[Choice, ...] = ("mine", "theirs", "middle")
 
@@ -88,7 +88,7 @@ class MergeDialog(QDialog):
         who = {"mine": tr("you"), "theirs": tr("them"), "conflict": tr("both")}
         for row, run in enumerate(self.runs):
             info = self._session.annotation.tracks[run.track]
-            gap = "" if run.gap != run.gap else f"{run.gap:.1f} px"
+            gap = "" if run.gap != run.gap else f"{decimal(run.gap, '.1f')} px"
             frames = f"{run.first}–{run.last}" if run.last > run.first else str(run.first)
             for column, text in enumerate([self._session.title(info.object, info.number), frames,
                                            who.get(run.kind, run.kind), gap]):  # fmt: skip

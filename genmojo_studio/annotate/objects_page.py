@@ -24,6 +24,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from genmojo_core.sentences import say
 from genmojo_core.tracks.annotation import ObjectInfo, Touched
 from genmojo_core.tracks.edit_tracks import put_objects
 from genmojo_core.tracks.edits import set_meta
@@ -31,7 +32,7 @@ from genmojo_studio.annotate.candidates import Figures
 from genmojo_studio.annotate.canvas import Tool
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.track_tree import point_icon
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import decimal, tr
 
 REASONS = ("too small", "does not move", "hidden too often", "not an object", "enough objects")
 _COLUMNS = 5
@@ -112,7 +113,7 @@ class ObjectsPage(QWidget):
             return
         order = max((o.order for o in self._session.objects()), default=0) + 1
         name = info.name or tr("object {n}").format(n=info.id)
-        self._put([replace(info, status="chosen", order=order, name=name, reason="")], tr("Choose {name}"), name)
+        self._put([replace(info, status="chosen", order=order, name=name, reason="")], say("choose_object", name=name))
         self._session.select(info.id, 1)
 
     def reject(self) -> None:
@@ -120,7 +121,7 @@ class ObjectsPage(QWidget):
         info = self.current()
         if info is not None:
             reason = REASONS[self.reason.currentIndex()]
-            self._put([replace(info, status="rejected", order=0, reason=reason)], tr("Reject {name}"), info.name)
+            self._put([replace(info, status="rejected", order=0, reason=reason)], say("reject_object", name=info.name))
 
     def reorder(self, step: int) -> None:
         """Earlier (-1) or later (1) in the order."""
@@ -131,10 +132,10 @@ class ObjectsPage(QWidget):
         if 0 <= there < len(objects):
             objects.remove(info)
             objects.insert(there, info)
-            self._put([replace(o, order=n + 1) for n, o in enumerate(objects)], tr("Order of objects"), "")
+            self._put([replace(o, order=n + 1) for n, o in enumerate(objects)], say("order_objects"))
 
-    def _put(self, objects: list[ObjectInfo], title: str, name: str) -> None:
-        self._session.do(put_objects(self._session.annotation, objects, title.format(name=name)))
+    def _put(self, objects: list[ObjectInfo], title: str) -> None:
+        self._session.do(put_objects(self._session.annotation, objects, title))
 
     def _ordered(self) -> list[ObjectInfo]:
         rank = {"chosen": 0, "candidate": 1, "rejected": 2}
@@ -144,7 +145,7 @@ class ObjectsPage(QWidget):
         f = self.figures.get(info.id)
         status = {"chosen": "✓", "candidate": "?", "rejected": "✗"}[info.status]
         texts = [info.name or tr("object {n}").format(n=info.id), status,
-                 f"{100 * f.size:.1f} %" if f else "…", f"{f.motion:.1f}" if f else "…",
+                 f"{decimal(100 * f.size, '.1f')} %" if f else "…", decimal(f.motion, ".1f") if f else "…",
                  f"{100 * f.seen:.0f}/{100 * f.covered:.0f} %" if f else "…"]  # fmt: skip
         for column, text in enumerate(texts):
             item = QTableWidgetItem(text)
@@ -272,7 +273,7 @@ class ObjectsPage(QWidget):
         objects = self._ordered()
         name = item.text().strip()[:60]
         if item.row() < len(objects) and name and name != objects[item.row()].name:
-            self._put([replace(objects[item.row()], name=name)], tr("Name {name}"), name)
+            self._put([replace(objects[item.row()], name=name)], say("name_object", name=name))
 
     def _picked(self) -> None:
         info = self.current()
@@ -295,7 +296,7 @@ class ObjectsPage(QWidget):
         for name, box in self.limits.items():
             if box.value() != self._session.limit(name):
                 edit = set_meta(self._session.annotation, f"limit_{name}", str(box.value()))
-                if self._session.do(replace(edit, title=tr("At most") + f" {box.text()}")) is None:
+                if self._session.do(replace(edit, title=say(f"most_{name}", count=box.value()))) is None:
                     self.refresh()
 
     def _up(self) -> None:

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from genmojo_core.sentences import say
 from genmojo_core.tracks.annotation import KEY
 from genmojo_core.tracks.edit_tracks import update_track
 from genmojo_core.tracks.suspicion import Spot
@@ -22,7 +23,7 @@ from genmojo_studio.annotate.button_panel import grid_of
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.track_tree import TrackTree, state_name
 from genmojo_studio.annotate.tracking import spot_at
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import decimal, told, tr
 
 MOST_SHOWN = 200
 
@@ -68,10 +69,11 @@ class RefinePage(QWidget):
             if info is None:
                 continue
             where = f"{spot.first}–{spot.last}" if spot.last > spot.first else str(spot.first)
-            text = f"{self._session.title(info.object, info.number)}   {where}   {', '.join(map(tr, spot.reasons[:2]))}"
+            why = ", ".join(map(told, spot.reasons[:2]))
+            text = f"{self._session.title(info.object, info.number)}   {where}   {why}"
             item = QListWidgetItem(text, self.queue)
             item.setData(Qt.ItemDataRole.UserRole, spot)
-            item.setToolTip("\n".join(map(tr, spot.reasons)))
+            item.setToolTip("\n".join(map(told, spot.reasons)))
         self.refresh()
 
     def refresh(self) -> None:
@@ -83,17 +85,17 @@ class RefinePage(QWidget):
             return
         cells = session.annotation.cells(track, np.array([session.frame]))
         x, y = cells.xy[0]
-        self.place.setText(f"x {x:.2f}   y {y:.2f}" if cells.state[0] else "–")
+        self.place.setText(f"x {decimal(x, '.2f')}   y {decimal(y, '.2f')}" if cells.state[0] else "–")
         marks = ", ".join(name for bit, name in ((KEY, tr("key")), (4, tr("accepted")), (2, tr("uncertain")),
                                                  (8, tr("snapped"))) if cells.flags[0] & bit)  # fmt: skip
         self.state.setText(state_name(int(cells.state[0])) + (f"  ({marks})" if marks else ""))
         sources = ("–", tr("a person"), tr("tracker"), tr("flow"), tr("line"), tr("import"), tr("hold"))
         made = sources[int(cells.source[0])] if int(cells.source[0]) < len(sources) else "?"
-        self.seed.setText(f"{made}, {tr('confidence')} {cells.conf[0]:.2f}")
+        self.seed.setText(f"{made}, {tr('confidence')} {decimal(cells.conf[0], '.2f')}")
         spot = spot_at(self.spots, track, session.frame)
         info = session.annotation.tracks[track]
-        reason = f"{tr('Reviewer')}: {info.reason} {info.note}".strip() if info.review == "needs_fix" else ""
-        doubts = map(tr, spot.reasons[:2]) if spot else ()
+        reason = f"{tr('Reviewer')}: {told(info.reason)} {info.note}".strip() if info.review == "needs_fix" else ""
+        doubts = map(told, spot.reasons[:2]) if spot else ()
         self.why.setText("; ".join(filter(None, (reason, *doubts))) or tr("nothing"))
         if not self.note.hasFocus():
             self.note.setText(info.note)
@@ -131,5 +133,5 @@ class RefinePage(QWidget):
     def _keep_note(self) -> None:
         session, track = self._session, self._session.track
         if track is not None and self.note.text() != session.annotation.tracks[track].note:
-            edit = update_track(session.annotation, track, tr("Note"), session.frame, note=self.note.text()[:400])
+            edit = update_track(session.annotation, track, say("note"), session.frame, note=self.note.text()[:400])
             session.do(edit)

@@ -22,7 +22,7 @@ from genmojo_core.tracks.edits import set_meta
 from genmojo_studio.annotate import verbs
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.track_tree import TrackTree, review_name
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import told, tr
 
 
 class ReviewPage(QWidget):
@@ -89,7 +89,7 @@ class ReviewPage(QWidget):
             session.run = (None, None)
             self.note.clear()
             session.said.emit(tr("Returned to {name}: {reason}").format(
-                name=session.annotation.tracks[track].person or tr("its annotator"), reason=tr(which)))  # fmt: skip
+                name=session.annotation.tracks[track].person or tr("its annotator"), reason=told(which)))  # fmt: skip
             self._next_open()
 
     def refresh(self, _touched: object = None) -> None:
@@ -109,7 +109,7 @@ class ReviewPage(QWidget):
         self.history.clear()
         rows = [r for r in session.project.history() if r.track is not None and r.track == session.track]
         for row in rows[-40:][::-1]:
-            self.history.addItem(f"{row.title}   {row.who}")
+            self.history.addItem(f"{told(row.title)}   {row.who}")
 
     def _who(self) -> str:
         return self.person.text().strip() or self._session.project.person
@@ -124,7 +124,7 @@ class ReviewPage(QWidget):
 
     def _arrange(self) -> None:
         for reason in REASONS:
-            self.reason.addItem(tr(reason))
+            self.reason.addItem(told(reason))
         self.reason.setAccessibleName(tr("What is wrong"))
         self.approve_button.clicked.connect(self.approve)
         self.fix_button.clicked.connect(self._fix_clicked)

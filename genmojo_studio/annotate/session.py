@@ -18,7 +18,7 @@ from genmojo_core.tracks.edits import Edit
 from genmojo_studio.annotate.frame_cache import FrameCache
 from genmojo_studio.settings import data_folder
 from genmojo_studio.state import AppState
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import told, tr
 
 POINTS = 5  # key points per object
 OBJECTS = 5  # objects per clip; both can be changed in the project's notes
@@ -178,7 +178,7 @@ class Session(QObject):
             self.select_track(step.track)
         if step.frame is not None:
             self.go(step.frame)
-        self.said.emit(sentence.format(title=", ".join(step.titles[:2])))
+        self.said.emit(sentence.format(title=told(step.titles[-1])))  # what a person did; the rest follows from it
 
     def close(self) -> None:
         """Write everything, let go of files and threads."""

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from genmojo_core.errors import GenmojoError
+from genmojo_core.sentences import say
 from genmojo_core.store import coco, cotracker_npz, cvat, deeplabcut, npz, sleap, tapvid, tracks_hdf5
 from genmojo_core.store.track_sheet import TrackSheet
 from genmojo_core.tracks import edit_tracks
@@ -91,7 +92,7 @@ def import_edit(annotation: Annotation, sheet: TrackSheet, person: str) -> Edit:
             kept = Cells(*(a[frames] for a in before.arrays()))
             changes.append(CellsChange(track, frames.astype(np.int32), kept, after))
     changes.append(MetaChange("last_track", annotation.meta.get("last_track"), str(last)))
-    return Edit("import", f"Import {len(tracks.object)} tracks", tuple(changes), 0, None)
+    return Edit("import", say("import", count=len(tracks.object)), tuple(changes), 0, None)
 
 
 def _imported(before: Cells, xy: np.ndarray, state: np.ndarray) -> tuple[np.ndarray, Cells]:

@@ -15,6 +15,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
+from genmojo_core.sentences import say
 from genmojo_core.trackers.evidence import scene_of
 from genmojo_core.trackers.seeding import Queries, Seeder, proposals
 from genmojo_core.trackers.solver import SolveAnswer, SolveRequest, TrackSolver
@@ -150,7 +151,7 @@ class Tracking(QObject):
         made = [part for part in parts if part.changes]
         count = sum(len(answer.found) for answer in answers)
         if made:
-            self._session.do(join("seed", tr("Seed {n} tracks").format(n=count), made))
+            self._session.do(join("seed", say("seed", count=count), made))
         self._stale |= {answer.request.object_id for answer in answers}
         self._look.start()
         self._tell_seeded(count)

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from genmojo_core.errors import GenmojoError
+from genmojo_core.sentences import say
 from genmojo_core.tracks import edit_tracks, keys
 from genmojo_core.tracks.annotation import CONFIRMED, HUMAN, KEY, SNAPPED, Cells, TrackInfo
 from genmojo_core.tracks.edits import CellsChange, Edit
@@ -191,7 +192,7 @@ def toggle_lock(session: Session) -> None:
     track = session.track
     if track is not None:
         locked = session.annotation.tracks[track].locked
-        title = tr("Unlock") if locked else tr("Lock")
+        title = say("unlock" if locked else "lock")
         session.do(edit_tracks.update_track(session.annotation, track, title, session.frame, locked=not locked))
 
 
@@ -222,8 +223,8 @@ def _first_key(session: Session, object_id: int, number: int, xy: tuple[float, f
     frames = np.array([session.frame], np.int32)
     placed = CellsChange(track, frames, Cells.empty(1), cells)
     owner = session.annotation.objects[object_id].name
-    return replace(made, title=tr("Place point {n} of {name}").format(n=number, name=owner),
-                   changes=(*made.changes, placed), frame=session.frame)  # fmt: skip
+    title = say("place", point=say("point_of", number=number, name=owner))
+    return replace(made, title=title, changes=(*made.changes, placed), frame=session.frame)
 
 
 def _doubt(session: Session, track: int) -> float:

@@ -13,6 +13,7 @@ from genmojo_core.clip import folders
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.estimate.masks import Prompt
+from genmojo_core.sentences import say
 from genmojo_core.trackers.solver import SHORT_SIDE
 from genmojo_core.tracks.annotation import ObjectInfo
 from genmojo_core.tracks.edit_tracks import put_objects
@@ -104,7 +105,7 @@ class Work(QObject):
         self._add_mask(number, name, mask)
         self._publish()
         made = known or ObjectInfo(number, name)
-        session.do(put_objects(session.annotation, [made], tr("Cut out {name}").format(name=name)))
+        session.do(put_objects(session.annotation, [made], say("cut_out", name=name)))
         session.select(number, 1)
         self._count()
 
@@ -159,7 +160,7 @@ class Work(QObject):
             if int(i) not in session.annotation.objects
         ]
         if new and not session.project.read_only:
-            session.do(put_objects(session.annotation, new, tr("Candidates from the masks")))
+            session.do(put_objects(session.annotation, new, say("candidates")))
         self.clip_ready.emit()
         self._count()
         self.tracker.look_again()

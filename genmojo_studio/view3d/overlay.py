@@ -14,7 +14,7 @@ from PySide6.QtGui import QColor, QFont, QImage, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
 from genmojo_core.clip.cameras import View
-from genmojo_studio.translate import mark, tr
+from genmojo_studio.translate import decimal, mark, tr
 from genmojo_studio.view3d.colouring import flow_wheel, palette_rgb
 from genmojo_studio.view3d.frames import FrameReport
 from genmojo_studio.view3d.look import SCALAR_MODES, TITLES, Mode
@@ -270,4 +270,4 @@ def _font(painter: QPainter, points: int, *, bold: bool = False) -> QFont:
 
 def _number(value: float) -> str:
     """Three significant digits, without an exponent where that is readable."""
-    return f"{value:.3g}" if 1e-3 <= abs(value) < 1e5 or value == 0 else f"{value:.2e}"
+    return decimal(value, ".3g" if 1e-3 <= abs(value) < 1e5 or value == 0 else ".2e")

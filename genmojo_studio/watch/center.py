@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSlider, QSplitter
 from genmojo_core.clip.clip import Clip
 from genmojo_studio.actions import ActionTable
 from genmojo_studio.state import AppState
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import decimal, tr
 from genmojo_studio.view3d.snapshot import SceneSnapshot
 from genmojo_studio.watch import differences, reference
 from genmojo_studio.watch.actions import COMPARES, MODES
@@ -208,7 +208,7 @@ class Center(QWidget):
 
     def _tell(self, by_object: dict[int, float]) -> None:
         whole = by_object.get(-1, math.nan)
-        self.figures.setText(f"PSNR {whole:.2f} dB" if math.isfinite(whole) else "")
+        self.figures.setText(f"PSNR {decimal(whole, '.2f')} dB" if math.isfinite(whole) else "")
 
 
 def _choice(actions: ActionTable, ids: list[str]) -> QComboBox:

@@ -11,7 +11,7 @@ from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QHeaderView, QTreeWidget, QTreeWidgetItem, QWidget
 
 from genmojo_core.effects.texts import sentence
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import decimal, tr
 from genmojo_studio.watch.effects_process import EffectsProcess
 
 _AS_WIDE = QHeaderView.ResizeMode.ResizeToContents
@@ -105,10 +105,12 @@ class EffectsTable(QTreeWidget):
 
 def _item(row: Mapping[str, Any]) -> QTreeWidgetItem:
     unit, bound = tr(str(row["unit"])), f"{row['threshold']:.3g}"
-    evidence = f"{row['evidence']:.3g} {unit}"
+    evidence = f"{decimal(row['evidence'], '.3g')} {unit}"
     sign = "≥" if row["evidence"] >= row["threshold"] else "<"
     known = row.get("known")
-    cost = f"{known['ms']:.1f} ms" if known and "ms" in known else f"≈ {row['ms_per_step']:.1f} ms"
+    cost = (
+        f"{decimal(known['ms'], '.1f')} ms" if known and "ms" in known else f"≈ {decimal(row['ms_per_step'], '.1f')} ms"
+    )
     item = QTreeWidgetItem([_title(str(row["name"])), f"{row['evidence']:.3g} {sign} {bound} {unit}", cost])
     item.setData(0, _NAME, row["name"])
     item.setCheckState(0, Qt.CheckState.Checked if row["on"] else Qt.CheckState.Unchecked)

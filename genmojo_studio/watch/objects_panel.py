@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 
 from genmojo_studio.actions import ActionTable
 from genmojo_studio.state import AppState
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import decimal, tr
 from genmojo_studio.view3d.snapshot import SceneSnapshot
 from genmojo_studio.watch.appearance import Appearance
 
@@ -92,7 +92,7 @@ class ObjectsPanel(QWidget):
         self.list.blockSignals(True)
         for item in self._items():
             value = figures.get(item.data(_NAME, _ID))
-            item.setText(_PSNR, "" if value is None or value != value else f"{value:.1f} dB")
+            item.setText(_PSNR, "" if value is None or value != value else f"{decimal(value, '.1f')} dB")
         self.list.blockSignals(False)
 
     def refresh(self) -> None:

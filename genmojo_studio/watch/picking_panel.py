@@ -12,7 +12,7 @@ from genmojo_studio import notify
 from genmojo_studio.background import Tasks
 from genmojo_studio.state import AppState
 from genmojo_studio.theme import SERIES
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import decimal, tr
 from genmojo_studio.view3d.picking import Contributor, Pick
 from genmojo_studio.view3d.snapshot import SceneSnapshot
 from genmojo_studio.watch import trajectory
@@ -169,9 +169,9 @@ class PickingPanel(QWidget):
 def _item(one: Contributor, is_background: bool) -> QTreeWidgetItem:
     texts = [
         tr("Background") if is_background else one.object_name,
-        f"{100 * one.weight:.1f} %",
-        f"{one.depth:.3f}",
-        f"{one.opacity:.2f}",
+        f"{decimal(100 * one.weight, '.1f')} %",
+        decimal(one.depth, ".3f"),
+        decimal(one.opacity, ".2f"),
         str(one.uid & _OWN_NUMBER),
     ]
     item = QTreeWidgetItem(texts)

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 from genmojo_studio.actions import ActionTable
 from genmojo_studio.icons import icon
 from genmojo_studio.state import AppState
-from genmojo_studio.translate import told, tr
+from genmojo_studio.translate import decimal, told, tr
 from genmojo_studio.watch.controls import as_sentence, dim, number, row, set_role
 from genmojo_studio.watch.forecast import spoken
 from genmojo_studio.watch.parameter_row import ParameterRow
@@ -124,7 +124,7 @@ class RunStatus(QWidget):
             if self._control.live and math.isfinite(log.eta_seconds):
                 parts.append(tr("{time} left").format(time=spoken(log.eta_seconds)))
         if log.accuracy:
-            parts.append(f"{log.accuracy[-1][2]:.2f} dB")
+            parts.append(f"{decimal(log.accuracy[-1][2], '.2f')} dB")
         if log.memory:
             parts.append(f"{log.memory[-1][1]:.0f} MB")
         if self._control.view_cost and self._control.live:

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSlider, QSpinBox,
 from genmojo_studio.actions import ActionTable
 from genmojo_studio.icons import icon
 from genmojo_studio.state import AppState
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import decimal, tr
 from genmojo_studio.watch.player import MODES, SPEEDS, Player
 
 _BUTTONS = (
@@ -74,7 +74,7 @@ class TimeBar(QWidget):
         self.count.setText(f"/ {state.frame_count}")
         clip = state.clip
         known = clip is not None and state.frame < len(clip.seconds)
-        self.seconds.setText(f"{clip.seconds[state.frame]:.3f} s" if clip is not None and known else "")
+        self.seconds.setText(f"{decimal(clip.seconds[state.frame], '.3f')} s" if clip is not None and known else "")
         self.speed.setCurrentIndex(min(range(len(SPEEDS)), key=lambda i: abs(SPEEDS[i] - state.speed)))
         self.mode.setCurrentIndex(MODES.index(self._player.mode))
         for name, button in self._buttons.items():

@@ -256,6 +256,14 @@
       <translation>Ohne Namen exportieren</translation>
     </message>
     <message>
+      <source>Undone: {title}</source>
+      <translation>Zurückgenommen: {title}</translation>
+    </message>
+    <message>
+      <source>Done again: {title}</source>
+      <translation>Wiederholt: {title}</translation>
+    </message>
+    <message>
       <source>annotated</source>
       <translation>annotiert</translation>
     </message>
@@ -404,10 +412,6 @@
       <translation>Was gezeichnet wird, ersetzt seine Maske in jedem Bild; Läufe nehmen die neue.</translation>
     </message>
     <message>
-      <source>Choose {name}</source>
-      <translation>{name} wählen</translation>
-    </message>
-    <message>
       <source>very small</source>
       <translation>sehr klein</translation>
     </message>
@@ -462,14 +466,6 @@
     <message>
       <source>Reason for leaving it out</source>
       <translation>Grund für das Weglassen</translation>
-    </message>
-    <message>
-      <source>Reject {name}</source>
-      <translation>{name} verwerfen</translation>
-    </message>
-    <message>
-      <source>Order of objects</source>
-      <translation>Reihenfolge der Objekte</translation>
     </message>
     <message>
       <source>object</source>
@@ -544,10 +540,6 @@
       <translation>Malen Sie über das, was nicht dazugehört</translation>
     </message>
     <message>
-      <source>Name {name}</source>
-      <translation>{name} benennen</translation>
-    </message>
-    <message>
       <source>{n} of at most {most} objects chosen.</source>
       <translation>{n} von höchstens {most} Objekten gewählt.</translation>
     </message>
@@ -598,6 +590,26 @@
     <message>
       <source>paint {state}</source>
       <translation>{state} malen</translation>
+    </message>
+    <message>
+      <source>free</source>
+      <translation>frei</translation>
+    </message>
+    <message>
+      <source>animal</source>
+      <translation>Tier</translation>
+    </message>
+    <message>
+      <source>fish</source>
+      <translation>Fisch</translation>
+    </message>
+    <message>
+      <source>vehicle</source>
+      <translation>Fahrzeug</translation>
+    </message>
+    <message>
+      <source>cuboid</source>
+      <translation>Quader</translation>
     </message>
     <message>
       <source>Off the object's mask.</source>
@@ -744,10 +756,6 @@
       <translation>Wählen Sie zuerst in Schritt 1 Objekte.</translation>
     </message>
     <message>
-      <source>Name points</source>
-      <translation>Punkte benennen</translation>
-    </message>
-    <message>
       <source>Suspicious spots, worst first</source>
       <translation>Verdächtige Stellen, schlechteste zuerst</translation>
     </message>
@@ -782,10 +790,6 @@
     <message>
       <source>nothing</source>
       <translation>nichts</translation>
-    </message>
-    <message>
-      <source>Note</source>
-      <translation>Notiz</translation>
     </message>
     <message>
       <source>Queue: {n} left (N goes to the next)</source>
@@ -1026,14 +1030,6 @@
     <message>
       <source>{n} min of optimising, ready in about {m:.1f} min</source>
       <translation>{n} min optimieren, fertig in etwa {m:.1f} min</translation>
-    </message>
-    <message>
-      <source>Undone: {title}</source>
-      <translation>Zurückgenommen: {title}</translation>
-    </message>
-    <message>
-      <source>Done again: {title}</source>
-      <translation>Wiederholt: {title}</translation>
     </message>
     <message>
       <source>Nothing more to take back or do again.</source>
@@ -1428,10 +1424,6 @@
       <translation>{n} Spuren haben nun einen Vorschlag.</translation>
     </message>
     <message>
-      <source>Seed {n} tracks</source>
-      <translation>{n} Spuren vorschlagen</translation>
-    </message>
-    <message>
       <source>Choose an object first (step 1).</source>
       <translation>Wählen Sie zuerst ein Objekt (Schritt 1).</translation>
     </message>
@@ -1440,16 +1432,8 @@
       <translation>Sehen Sie diesen Punkt an und drücken Sie noch einmal Enter.</translation>
     </message>
     <message>
-      <source>Unlock</source>
-      <translation>Entsperren</translation>
-    </message>
-    <message>
       <source>This segment is filled by: {mode}</source>
       <translation>Dieser Abschnitt wird gefüllt durch: {mode}</translation>
-    </message>
-    <message>
-      <source>Place point {n} of {name}</source>
-      <translation>Punkt {n} von {name} setzen</translation>
     </message>
     <message>
       <source>Cutting the object out of every frame …</source>
@@ -1466,14 +1450,6 @@
     <message>
       <source>Draw something first.</source>
       <translation>Malen Sie zuerst etwas.</translation>
-    </message>
-    <message>
-      <source>Candidates from the masks</source>
-      <translation>Kandidaten aus den Masken</translation>
-    </message>
-    <message>
-      <source>Cut out {name}</source>
-      <translation>{name} ausschneiden</translation>
     </message>
     <message>
       <source>Steps</source>
@@ -4200,6 +4176,238 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>{count} quaternions of {name} were made unit ones</source>
       <translation>{count} Quaternionen von {name} wurden auf Länge eins gebracht</translation>
+    </message>
+    <message>
+      <source>point {number} of {name}</source>
+      <translation>Punkt {number} von {name}</translation>
+    </message>
+    <message>
+      <source>object {number}</source>
+      <translation>Objekt {number}</translation>
+    </message>
+    <message>
+      <source>frame {first}</source>
+      <translation>Bild {first}</translation>
+    </message>
+    <message>
+      <source>frames {first} to {last}</source>
+      <translation>Bilder {first} bis {last}</translation>
+    </message>
+    <message>
+      <source>Place {point}</source>
+      <translation>Setzen: {point}</translation>
+    </message>
+    <message>
+      <source>Delete the key of {point}</source>
+      <translation>Schlüssel löschen: {point}</translation>
+    </message>
+    <message>
+      <source>{point} visible, {frames}</source>
+      <translation>{point} sichtbar, {frames}</translation>
+    </message>
+    <message>
+      <source>{point} occluded, {frames}</source>
+      <translation>{point} verdeckt, {frames}</translation>
+    </message>
+    <message>
+      <source>{point} out of view, {frames}</source>
+      <translation>{point} außerhalb des Bildes, {frames}</translation>
+    </message>
+    <message>
+      <source>{point} not annotated, {frames}</source>
+      <translation>{point} nicht annotiert, {frames}</translation>
+    </message>
+    <message>
+      <source>{point} uncertain, {frames}</source>
+      <translation>{point} unsicher, {frames}</translation>
+    </message>
+    <message>
+      <source>{point} certain, {frames}</source>
+      <translation>{point} sicher, {frames}</translation>
+    </message>
+    <message>
+      <source>Accept {point}</source>
+      <translation>Annehmen: {point}</translation>
+    </message>
+    <message>
+      <source>Accept {count} points</source>
+      <translation>{count} Punkte annehmen</translation>
+    </message>
+    <message>
+      <source>Reopen {count} points</source>
+      <translation>{count} Punkte wieder öffnen</translation>
+    </message>
+    <message>
+      <source>Fill mode of {point}</source>
+      <translation>Füllart ändern: {point}</translation>
+    </message>
+    <message>
+      <source>Solve {point}</source>
+      <translation>Lösen: {point}</translation>
+    </message>
+    <message>
+      <source>Solve {count} tracks</source>
+      <translation>{count} Spuren lösen</translation>
+    </message>
+    <message>
+      <source>Seed {count} tracks</source>
+      <translation>{count} Spuren vorschlagen</translation>
+    </message>
+    <message>
+      <source>Seed {count} tracks by {name}</source>
+      <translation>{count} Spuren vorschlagen durch {name}</translation>
+    </message>
+    <message>
+      <source>Merge {count} tracks</source>
+      <translation>{count} Spuren zusammenführen</translation>
+    </message>
+    <message>
+      <source>Import {count} tracks</source>
+      <translation>{count} Spuren importieren</translation>
+    </message>
+    <message>
+      <source>Set objects</source>
+      <translation>Objekte setzen</translation>
+    </message>
+    <message>
+      <source>Candidates from the masks</source>
+      <translation>Kandidaten aus den Masken</translation>
+    </message>
+    <message>
+      <source>Cut out {name}</source>
+      <translation>{name} ausschneiden</translation>
+    </message>
+    <message>
+      <source>Choose {name}</source>
+      <translation>{name} wählen</translation>
+    </message>
+    <message>
+      <source>Reject {name}</source>
+      <translation>{name} verwerfen</translation>
+    </message>
+    <message>
+      <source>Name {name}</source>
+      <translation>{name} benennen</translation>
+    </message>
+    <message>
+      <source>Order of objects</source>
+      <translation>Reihenfolge der Objekte</translation>
+    </message>
+    <message>
+      <source>At most {count} objects</source>
+      <translation>Höchstens {count} Objekte</translation>
+    </message>
+    <message>
+      <source>At most {count} points each</source>
+      <translation>Höchstens {count} Punkte je Objekt</translation>
+    </message>
+    <message>
+      <source>Add point {number}</source>
+      <translation>Punkt {number} anlegen</translation>
+    </message>
+    <message>
+      <source>Delete point {number}</source>
+      <translation>Punkt {number} löschen</translation>
+    </message>
+    <message>
+      <source>Change point {number}</source>
+      <translation>Punkt {number} ändern</translation>
+    </message>
+    <message>
+      <source>Name points</source>
+      <translation>Punkte benennen</translation>
+    </message>
+    <message>
+      <source>Swap point {one} and point {other}</source>
+      <translation>Punkt {one} und Punkt {other} tauschen</translation>
+    </message>
+    <message>
+      <source>Split point {number} at frame {frame}</source>
+      <translation>Punkt {number} bei Bild {frame} teilen</translation>
+    </message>
+    <message>
+      <source>Join point {one} and point {other}</source>
+      <translation>Punkt {one} und Punkt {other} verbinden</translation>
+    </message>
+    <message>
+      <source>Unlock</source>
+      <translation>Entsperren</translation>
+    </message>
+    <message>
+      <source>Note</source>
+      <translation>Notiz</translation>
+    </message>
+    <message>
+      <source>Set {what}</source>
+      <translation>Angabe ändern: {what}</translation>
+    </message>
+    <message>
+      <source>consent</source>
+      <translation>Einwilligung</translation>
+    </message>
+    <message>
+      <source>Needs fix: {reason}</source>
+      <translation>Nacharbeit nötig: {reason}</translation>
+    </message>
+    <message>
+      <source>drift</source>
+      <translation>driftet ab</translation>
+    </message>
+    <message>
+      <source>jump</source>
+      <translation>springt</translation>
+    </message>
+    <message>
+      <source>swap</source>
+      <translation>vertauscht</translation>
+    </message>
+    <message>
+      <source>occlusion wrong</source>
+      <translation>Verdeckung falsch</translation>
+    </message>
+    <message>
+      <source>wrong part</source>
+      <translation>falsche Stelle</translation>
+    </message>
+    <message>
+      <source>imprecise</source>
+      <translation>ungenau</translation>
+    </message>
+    <message>
+      <source>sudden motion</source>
+      <translation>plötzliche Bewegung</translation>
+    </message>
+    <message>
+      <source>neighbouring frames contradict it</source>
+      <translation>Nachbarbilder widersprechen</translation>
+    </message>
+    <message>
+      <source>looks different from its keys</source>
+      <translation>sieht anders aus als an seinen Schlüsseln</translation>
+    </message>
+    <message>
+      <source>trackers disagree</source>
+      <translation>Verfolger sind uneins</translation>
+    </message>
+    <message>
+      <source>contradicts the object's mask</source>
+      <translation>widerspricht der Maske des Objekts</translation>
+    </message>
+    <message>
+      <source>moves unlike the other points of the object</source>
+      <translation>bewegt sich anders als die übrigen Punkte des Objekts</translation>
+    </message>
+    <message>
+      <source>state changes back and forth</source>
+      <translation>Zustand wechselt hin und her</translation>
+    </message>
+    <message>
+      <source>the tracker is unsure</source>
+      <translation>der Verfolger ist unsicher</translation>
+    </message>
+    <message>
+      <source>far from any key</source>
+      <translation>weit von jedem Schlüssel</translation>
     </message>
   </context>
 </TS>

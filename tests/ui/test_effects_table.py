@@ -31,7 +31,7 @@ def test_evidence_is_told_in_german_with_measured_costs(qtbot):
         assert "stetiges Licht" in items["appearance_change"].toolTip(0)
         assert "% Helligkeit" in items["appearance_change"].text(1)
         assert items["flow"].toolTip(0).startswith("Von Hand ausgeschaltet. Der Fluss gilt in")
-        assert items["depth_order"].text(2) == "12.5 ms" and "+1.25 dB („bear“)" in items["depth_order"].toolTip(0)
+        assert items["depth_order"].text(2) == "12,5 ms" and "+1,25 dB („bear“)" in items["depth_order"].toolTip(0)
         assert items["background"].text(2).startswith("≈ ")
         log = RunLog()
         run_plan = plan(two_apart(), preset("draft")).decided("shading", False, ("no_shading", {"percent": 3.2}))
