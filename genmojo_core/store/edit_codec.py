@@ -76,8 +76,9 @@ def decode_proposal(data: bytes) -> Proposal:
 
 
 def object_in(record: dict[str, Any]) -> ObjectInfo:
-    """An ObjectInfo of plain data."""
-    return ObjectInfo(**{f.name: record[f.name] for f in fields(ObjectInfo)})
+    """An ObjectInfo of plain data; older projects know no masks drawn for objects."""
+    values = {"mask": 0} | record
+    return ObjectInfo(**{f.name: values[f.name] for f in fields(ObjectInfo)})
 
 
 def track_in(record: dict[str, Any]) -> TrackInfo:

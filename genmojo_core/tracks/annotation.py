@@ -29,13 +29,17 @@ REASONS = tuple(say(f"fault_{name}") for name in _FAULTS)  # why a reviewer retu
 
 @dataclass(frozen=True)
 class ObjectInfo:
-    """An object: `id` of its mask, name, place in the order (1..), whether it is annotated, and why."""
+    """An object: `id` of its mask, name, place in the order (1..), whether it is annotated, and why.
+
+    `mask` names the mask that a person drew for it (blob `mask:<number>` of the project); 0 is the clip's own.
+    """
 
     id: int
     name: str
     order: int = 0
     status: ObjectStatus = "candidate"
     reason: str = ""
+    mask: int = 0
 
 
 @dataclass(frozen=True)

@@ -50,18 +50,19 @@ def _connect(w: AnnotateWorkspace) -> None:
         page.tree.chosen.connect(session.select)
     work.figures_ready.connect(w.objects.set_figures)
     work.tracker.measured.connect(w.play.graphs.set_measures)
-    work.masks_changed.connect(w.screen_link.presenter.forget_masks)
-    work.masks_changed.connect(w.screen_link.refresh)
+    masks = work.masks
+    masks.changed.connect(w.screen_link.presenter.forget_masks)
+    masks.changed.connect(w.screen_link.refresh)
     work.busy_changed.connect(w.say)
     work.spots_ready.connect(w.refine.set_spots)
     work.spots_ready.connect(w.play.sheet.refresh)
-    work.cutting.connect(w.objects.show_cutting)
-    work.tool_changed.connect(w.use_tool)
-    w.objects.tool_wanted.connect(work.use_tool)
-    w.objects.cut_wanted.connect(work.cut)
-    work.replaces = w.objects.replaced
-    canvas.boxed.connect(work.add_box)
-    canvas.stroked.connect(work.add_stroke)
+    masks.cutting.connect(w.objects.show_cutting)
+    masks.tool_changed.connect(w.use_tool)
+    w.objects.tool_wanted.connect(masks.use_tool)
+    w.objects.cut_wanted.connect(masks.cut)
+    masks.replaces = w.objects.replaced
+    canvas.boxed.connect(masks.add_box)
+    canvas.stroked.connect(masks.add_stroke)
     w.bar.stride_changed.connect(w.set_stride)
 
 

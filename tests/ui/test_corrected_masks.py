@@ -27,7 +27,7 @@ def test_an_edited_mask_reaches_the_plan_and_the_run(window, qtbot, told):
     qtbot.waitUntil(lambda: annotate.session.active[0] == edited, timeout=60_000)
     qtbot.waitUntil(lambda: annotate.objects.replaced() == edited, timeout=60_000)
     assert annotate.step == 0
-    annotate.work.add_box(*_BOX)
+    annotate.work.masks.add_box(*_BOX)
     qtbot.waitUntil(lambda: window.state.masks_path is not None, timeout=60_000)
 
     clip = window.state.clip

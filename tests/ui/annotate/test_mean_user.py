@@ -130,7 +130,7 @@ def test_the_window_closes_in_the_middle_of_it(workspace, qtbot, clip_folder, tm
     choose_all(workspace)
     if when == "cutting":
         size = workspace.session.annotation.size
-        workspace.work.add_box(0.2 * size[0], 0.2 * size[1], 0.5 * size[0], 0.6 * size[1])
+        workspace.work.masks.add_box(0.2 * size[0], 0.2 * size[1], 0.5 * size[0], 0.6 * size[1])
     elif when == "reading":
         workspace.close_clip()
         workspace.state.set(clip=None, clip_path=None)
@@ -164,7 +164,7 @@ def test_a_clip_without_masks(workspace, qtbot, swap, tmp_path):
     session.said.connect(said.append)
     workspace.show_step(0)
     workspace.objects.cut.click()
-    workspace.work.cut()
+    workspace.work.masks.cut()
     assert said and not session.annotation.tracks
 
 
