@@ -12,10 +12,13 @@ from genmojo_core.optimise.motion import ObjectMotion, improved_depth
 from genmojo_core.tracks.model import VISIBLE, PointTracks
 
 _REACH = 1  # held px around a point in which its depth may be read
+_SHARE = 0.4  # what annotated tracks count together, in what the object's own hundreds of tracks do
 
 
 def with_annotated(clip: Clip, motions: Sequence[ObjectMotion]) -> list[ObjectMotion]:
     """The motions with the clip's given tracks added to their own: sure where seen, silent elsewhere.
+
+    They are few beside the motion's own tracks, so each counts for as many as makes all of an object's together heard.
 
     A track's place in space is read from the depth of the frame nearest the reference frame in which it is seen and
     the object's pose is known; a track without such a frame is left out. Without given tracks nothing changes.
@@ -39,10 +42,11 @@ def _added(clip: Clip, tracks: PointTracks, motion: ObjectMotion, owner: int) ->
         return motion
     seen = tracks.state[rows] == VISIBLE
     xy = np.where(seen[..., None], tracks.xy[rows], 0.0)
+    each = max(1.0, _SHARE * float(motion.track_conf.sum()) / max(int(seen.sum()), 1))
     return replace(
         motion, track_xyz=np.concatenate([motion.track_xyz, np.stack(points)]),
         track_xy=np.concatenate([motion.track_xy, xy]),
-        track_conf=np.concatenate([motion.track_conf, seen.astype(np.float64)]),
+        track_conf=np.concatenate([motion.track_conf, each * seen]),
     )  # fmt: skip
 
 

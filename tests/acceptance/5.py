@@ -138,7 +138,7 @@ def acknowledgement(bench: Bench) -> list[Check]:
     return [Check("p99 ms", late, 200, at_most=True), Check("edits never acknowledged", made - told, 0, at_most=True)]
 
 
-def loop(bench: Bench, name: str = "blender-trio") -> list[Check]:
+def loop(bench: Bench, name: str) -> list[Check]:
     """What a person said goes into the optimiser (as "Solve from scene" hands it over): the scene's tracks profit."""
     source = bench.data / name
     person = simulated_annotator.Person(simulated_annotator.full_hd(source), simulated_annotator.truth_of(source))
@@ -151,7 +151,16 @@ def loop(bench: Bench, name: str = "blender-trio") -> list[Check]:
     found = {}
     for title, more in (("without", []), ("with", ["--tracks", str(given)])):
         path = _optimised(
-            bench, name, bench.work / f"loop-{title}.h5", "--preset", "draft", "--ignore", "tracks", *more
+            bench,
+            name,
+            bench.work / f"loop-{title}.h5",
+            "--preset",
+            "draft",
+            "--budget",
+            "600s",
+            "--ignore",
+            "tracks",
+            *more,
         )
         scores = bench.python("-m", "genmojo_core.cli.main", "evaluate", str(path), str(source), "--json")
         found[title] = json.loads(scores)
@@ -187,7 +196,8 @@ ROWS: Rows = {
     "queue": ("injected errors", suspicion),
     "frame-step": ("frame steps", frame_step),
     "acknowledgement": ("an edit is on the disk", acknowledgement),
-    "loop": ("blender-trio, draft, with and without what a person said", loop),
+    **{f"loop-{clip.split('-')[1]}": (f"{clip}, draft, with and without what a person said", partial(loop, name=clip))
+       for clip in CLIPS},
     "seeks": ("10,000 random seeks, ten files", lambda b: tests(b, 10, "tests/clip/test_random_frames.py", "-k",
                                                                 "ten_thousand")),
     "kills": ("200 kill -9", lambda b: tests(b, 1, "tests/store/test_project_crash.py", "-k", "two_hundred")),

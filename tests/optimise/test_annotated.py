@@ -31,6 +31,8 @@ def test_given_tracks_join_the_motions_own_with_their_true_places() -> None:
         assert len(after.track_xyz) == len(before.track_xyz) + len(rows)
         new = slice(len(before.track_xyz), None)
         assert np.array_equal(after.track_conf[new] > 0, truth.visible[rows])
+        share = after.track_conf[new].sum() / before.track_conf.sum()
+        assert share >= 0.39, "few annotated tracks must be heard beside hundreds of the motion's own"
         error = np.linalg.norm(after.track_xyz[new] - truth.track_xyz[rows, before.ref_frame], axis=1)
         assert np.median(error) < 0.05
         assert after.track_xy[new][truth.visible[rows]] == pytest.approx(
