@@ -6,8 +6,10 @@ Keys that are held (occluded, loupe, hide) act until they are let go; `held.py` 
 from __future__ import annotations
 
 from genmojo_studio.actions import Action
+from genmojo_studio.annotate import steps
 
 WORKSPACE = "annotate"
+KEYED = 9  # points of an object, and objects, that have a key of their own; Tab and the tree reach all
 MENUS = {"move": "Go", "point": "Points", "track": "Tracks", "view": "View", "edit": "Edit", "review": "Review",
          "file": "File", "step": "Go/Step", "panel": "View/Panels"}  # fmt: skip
 
@@ -19,7 +21,7 @@ def _action(name: str, text: str, keys: str = "", help_: str = "", **more: objec
         for title in ("CVAT", "labelme", "Blender")
         if title.lower() in more
     }
-    menu = MENUS[name.split(".")[0]]
+    menu = str(more.pop("menu", MENUS[name.split(".")[0]]))
     return Action(f"annotate.{name}", text, menu, tuple(keys.split()), presets, WORKSPACE, help_, **more)  # type: ignore[arg-type]
 
 
@@ -53,8 +55,10 @@ _MOVE = (
 )  # fmt: skip
 
 _POINT = (
-    *(_action(f"point.choose_{n}", f"Point {n}", str(n), f"Point {n} of the object is active.") for n in range(1, 6)),
-    *(_action(f"point.object_{n}", f"Object {n}", f"Shift+{n}", f"Makes object {n} active.") for n in range(1, 6)),
+    *(_action(f"point.choose_{n}", f"Point {n}", str(n), f"Point {n} of the object is active.", menu="Points/Choose")
+      for n in range(1, KEYED + 1)),
+    *(_action(f"point.object_{n}", f"Object {n}", f"Shift+{n}", f"Makes object {n} active.", menu="Points/Choose")
+      for n in range(1, KEYED + 1)),
     _action("point.next", "Next point", "Alt+Down", "The next point; in the frame Tab does it too."),
     _action("point.previous", "Previous point", "Alt+Up", "The point before; in the frame Shift+Tab too."),
     _action("point.occluded", "Occluded", "Q", "Hidden by something; hold and step to paint. Right click too.",
@@ -67,8 +71,8 @@ _POINT = (
     _action("point.key", "Key on or off", "K", "Makes this place a key, or an ordinary place.", blender="I"),
     _action("point.delete_key", "Delete the key", "Del", "The key becomes an ordinary place.", blender="Shift+X",
             labelme="Del", cvat="Del"),
-    _action("point.snap", "Snap to the likeness", "S", "Clicks go to the best likeness nearby; shown before.",
-            checkable=True),
+    _action("point.snap", "Snap to the likeness", "S", "Clicks go to the best likeness nearby, on a point's "
+            "first key to the nearest corner; shown before.", checkable=True),
     *(_action(f"point.nudge_{side.lower()}", f"Nudge {side.lower()}", f"Ctrl+{side}", "A quarter of a pixel.",
               repeats=True) for side in ("Left", "Right", "Up", "Down")),
     *(_action(f"point.push_{side.lower()}", f"Push {side.lower()}", f"Ctrl+Shift+{side}", "One pixel.", repeats=True)
@@ -106,6 +110,9 @@ _VIEW = (
     ),
     _action("view.loupe", "Loupe while held", "Z", "Now, the key before, the first frame and the difference."),
     _action("view.loupe_stay", "Loupe", "Shift+Z", "Keeps the loupe open.", checkable=True),
+    _action(
+        "view.loupe_smooth", "Smooth loupe", "Alt+Z", "Pixels melt into each other, or show as squares.", checkable=True
+    ),
     _action("view.hide", "Hide what is drawn while held", "H", "Shows the bare frame.", blender="Shift+Alt+Z"),
     _action("view.masks", "Masks: off, outline, filled", "M", "Changes how masks are drawn."),
     _action("view.trails", "Trails: off, short, long", "G", "Changes the length of the trails."),
@@ -135,8 +142,15 @@ _REST = (
     _action("panel.buttons", "Buttons", "", "Shows or hides this panel.", checkable=True),
     _action("panel.information", "Information", "", "Shows or hides this panel.", checkable=True),
     _action("panel.play", "Video play", "", "Shows or hides this panel.", checkable=True),
-    *(_action(f"step.{n}", title, f"Alt+{n}", f"Step {n} of 4.") for n, title in
-      enumerate(("Objects", "Points and seed", "Refine", "Review"), 1)),
 )  # fmt: skip
 
-ACTIONS: tuple[Action, ...] = (*_MOVE, *_POINT, *_TRACK, *_VIEW, *_REST)
+
+def step_actions() -> tuple[Action, ...]:
+    """Alt+1, Alt+2, ...: one action for each step there is."""
+    count = len(steps.STEPS)
+    return tuple(
+        _action(f"step.{n}", s.title, f"Alt+{n}", f"Step {n} of {count}.") for n, s in enumerate(steps.STEPS, 1)
+    )
+
+
+ACTIONS: tuple[Action, ...] = (*_MOVE, *_POINT, *_TRACK, *_VIEW, *_REST, *step_actions())

@@ -10,10 +10,11 @@ import numpy as np
 
 from genmojo_core.tracks import edit_tracks
 from genmojo_core.tracks.suspicion import Spot
-from genmojo_studio.annotate import verbs
-from genmojo_studio.annotate.canvas import Tool
+from genmojo_studio.annotate import steps, verbs
+from genmojo_studio.annotate.actions import KEYED
 from genmojo_studio.annotate.dialogs import Dialogs
 from genmojo_studio.annotate.going import Going
+from genmojo_studio.annotate.placing import Placing
 from genmojo_studio.annotate.session import TRAILS
 from genmojo_studio.translate import decimal, tr
 
@@ -74,11 +75,10 @@ class Hands:
             raise RuntimeError("a session is needed before its actions can be bound")
         self._w, self._s = workspace, workspace.session
         self.going = Going(workspace.session, workspace.play.player)
+        self.placing = Placing(workspace, self.going)
         self.dialogs = Dialogs(workspace)
         w = workspace
-        w.canvas.clicked.connect(self.clicked)
         w.canvas.picked.connect(self._s.select_track)
-        w.canvas.dragged.connect(self.dragged)
         w.canvas.toggled.connect(self.toggled)
         w.canvas.hovered.connect(self.hovered)
         w.canvas.cycled.connect(self.cycle)
@@ -97,12 +97,12 @@ class Hands:
         s = self._s
         steps = {"left": (-1, 0), "right": (1, 0), "up": (0, -1), "down": (0, 1)}
         table: dict[str, Verb] = {}
-        for n in range(1, 6):
+        for n in range(1, KEYED + 1):
             table[f"point.choose_{n}"] = partial(self._number, n)
             table[f"point.object_{n}"] = partial(self._object, n)
         for side, (dx, dy) in steps.items():
-            table[f"point.nudge_{side}"] = partial(self.nudge, 0.25 * dx, 0.25 * dy)
-            table[f"point.push_{side}"] = partial(self.nudge, dx, dy)
+            table[f"point.nudge_{side}"] = partial(self.placing.nudge, 0.25 * dx, 0.25 * dy)
+            table[f"point.push_{side}"] = partial(self.placing.nudge, dx, dy)
         return table | {
             "point.next": lambda: self.cycle(1),
             "point.previous": lambda: self.cycle(-1),
@@ -148,6 +148,7 @@ class Hands:
             "view.out": lambda: w.canvas.zoom_step(-1),
             "view.follow": lambda: w.screen_link.set_follow(not w.screen_link.follow),
             "view.loupe_stay": self.loupe_toggle,
+            "view.loupe_smooth": w.screen_link.switch_smooth,
             "view.masks": self._masks,
             "view.trails": self._trails,
             "view.strip": self._strip,
@@ -165,13 +166,13 @@ class Hands:
             "move.panel_back": lambda: w.next_panel(-1),
             "move.frame": w.back_to_frame,
             **{f"panel.{name}": partial(self._panel, name) for name in w.docks},
-            **{f"step.{n + 1}": partial(w.show_step, n) for n in range(4)},
+            **{f"step.{n + 1}": partial(w.show_step, n) for n in range(len(steps.STEPS))},
             "step.edit_mask": self.edit_mask,
         }
 
     def edit_mask(self) -> None:
-        """Step 1, the selected object's mask to be drawn anew."""
-        self._w.show_step(0)
+        """The step of objects, the selected object's mask to be drawn anew."""
+        self._w.show_step(steps.place_of("objects"))
         selected = self._s.state.selected_object
         if selected:
             self._s.select(int(selected), 1)
@@ -181,10 +182,12 @@ class Hands:
         """When an action is possible."""
         s = self._s
         needs_track = name.startswith(("track.", "review.fix", "review.approve", "review.reject", "point.key",
-                                       "point.delete", "point.nudge", "point.push", "point.uncertain", "move.key",
+                                       "point.delete", "point.uncertain", "move.key",
                                        "move.bisect"))  # fmt: skip
         if name == "track.seed":
             return lambda: self._w.session is s and bool(s.annotation.tracks)
+        if name.startswith(("point.nudge", "point.push")):
+            return lambda: self._w.session is s and s.nudged is not None
         if needs_track:
             return lambda: self._w.session is s and s.track is not None
         return lambda: self._w.session is s
@@ -196,6 +199,7 @@ class Hands:
             "point.snap": lambda: s.snap,
             "view.follow": lambda: w.screen_link.follow,
             "view.loupe_stay": lambda: w.canvas.loupe.on,
+            "view.loupe_smooth": lambda: w.canvas.loupe.smooth,
             "view.strip": lambda: w.strip.isVisible(),
             "track.lock": lambda: s.track is not None and s.annotation.tracks[s.track].locked,
         }
@@ -204,33 +208,6 @@ class Hands:
         return None if switch is None else lambda: w.session is s and switch()
 
     # ---- mouse
-
-    def clicked(self, x: float, y: float) -> None:
-        """A click places the active point; in step 2 the next point follows."""
-        if self._w.canvas.tool != Tool.POINT or self._w.step == 0:
-            return
-        new = self._s.track is None
-        step = verbs.place(self._s, (x, y), snapped=self._w.canvas.ghost is not None)
-        if step is None:
-            return
-        if new and self._w.step == 1:
-            self._name_new()
-            self.going.next_unplaced()
-        elif self._s.track is not None:
-            self._w.work.tracker.after_key(self._s.track, self._s.frame, step)
-
-    def dragged(self, track: int, x: float, y: float) -> None:
-        """Letting go of a point makes a key and solves the segments on both sides, as one step."""
-        self._s.select_track(track)
-        step = verbs.set_key(self._s, track, (x, y))
-        if step is not None:
-            self._w.work.tracker.after_key(track, self._s.frame, step)
-
-    def nudge(self, dx: float, dy: float) -> None:
-        """Move the active point a little."""
-        step, track = verbs.nudge(self._s, dx, dy), self._s.track
-        if step is not None and track is not None:
-            self._w.work.tracker.after_key(track, self._s.frame, step)
 
     def toggled(self, track: int) -> None:
         """A right click hides a point, or shows it again."""
@@ -248,7 +225,7 @@ class Hands:
     def knot_moved(self, track: int, frame: int, x: float, y: float) -> None:
         """A knot of a curve was dragged: the key goes there, as if it had been dragged in its frame."""
         self._s.go(frame)
-        self.dragged(track, x, y)
+        self.placing.dragged(track, x, y)
 
     def cycle(self, step: int) -> None:
         """The next or previous point over all objects."""
@@ -332,16 +309,9 @@ class Hands:
         if track is not None:
             verbs.attempt(self._s, lambda: edit_tracks.fixed(self._s.annotation, track))
 
-    def _name_new(self) -> None:
-        """A new point takes the template's name, in the same step."""
-        track, name = self._s.track, self._w.points.point_name(self._s.active[1])
-        if track is not None and name:
-            edit = edit_tracks.update_track(self._s.annotation, track, name=name)
-            self._s.do(edit, self._s.project.log.edit(self._s.project.log.head).step)
-
     def _toggle_snap(self) -> None:
         self._s.snap = not self._s.snap
-        self._w.canvas.ghost = None
+        self._w.screen_link.aim()
         self._w.canvas.update()
 
     def _masks(self) -> None:

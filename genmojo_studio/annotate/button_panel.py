@@ -22,7 +22,8 @@ from PySide6.QtWidgets import (
 )
 
 from genmojo_studio.actions import ActionTable
-from genmojo_studio.annotate.steps import SHORT, STEPS, Step
+from genmojo_studio.annotate import steps
+from genmojo_studio.annotate.steps import SHORT, Step
 from genmojo_studio.translate import tr
 
 
@@ -151,7 +152,7 @@ class StepBar(QWidget):
         row.setSpacing(6)
         self._group = QButtonGroup(self)
         self.buttons: list[QToolButton] = []
-        for n, step in enumerate(STEPS):
+        for n, step in enumerate(steps.STEPS):
             button = QToolButton()
             button.setText(f"{n + 1}  {tr(step.title)}")
             button.setCheckable(True)
@@ -160,7 +161,7 @@ class StepBar(QWidget):
             self._group.addButton(button, n)
             self.buttons.append(button)
             row.addWidget(button)
-            if n < len(STEPS) - 1:
+            if n < len(steps.STEPS) - 1:
                 row.addWidget(QLabel("›"))
         self._group.idClicked.connect(self.chosen)
         self.task = QLabel()
@@ -186,10 +187,10 @@ class StepBar(QWidget):
         """Mark a step as the current one; `missing` says per step what it still lacks."""
         for n, (button, text) in enumerate(zip(self.buttons, missing, strict=True)):
             button.setChecked(n == place)
-            button.setText(f"{n + 1}  {tr(STEPS[n].title)}{'' if text else '  ✓'}")
-            button.setToolTip(f"{tr(STEPS[n].task)}\n{text or tr('Done.')}  (Alt+{n + 1})")
+            button.setText(f"{n + 1}  {tr(steps.STEPS[n].title)}{'' if text else '  ✓'}")
+            button.setToolTip(f"{tr(steps.STEPS[n].task)}\n{text or tr('Done.')}  (Alt+{n + 1})")
         self.task.setText(missing[place] or tr("This step is done."))
-        self.task.setToolTip(tr(STEPS[place].task))
+        self.task.setToolTip(tr(steps.STEPS[place].task))
 
 
 def grid_of(pairs: list[tuple[str, QWidget]], parent: QWidget | None = None) -> QWidget:

@@ -59,6 +59,7 @@ class Canvas(QWidget):
         self.mapping, self.picture, self.loupe = Mapping(), Picture(), Loupe()
         self.tool, self.reticle = Tool.POINT, 18
         self.show_overlay = True
+        self.places = False  # whether a click beside another point places one that has no place yet, or picks the other
         self.ghost: tuple[float, float] | None = None  # where snapping would put a click
         self.locked_on: tuple[float, float] | None = None  # raster place held in the middle of the view
         self._frame: np.ndarray | None = None
@@ -279,7 +280,7 @@ class Canvas(QWidget):
             self.stroked.emit(points, self.tool == Tool.SCRIBBLE)
         elif grab is not None and drag is not None:
             self.dragged.emit(grab.track, *drag)
-        elif grab is not None and grab.track != self.picture.selected:
+        elif grab is not None and grab.track != self.picture.selected and not self._places_beside(grab):
             self.picked.emit(grab.track)
         elif pan is None and event.button() == Qt.MouseButton.LeftButton:
             self.clicked.emit(*(self.ghost or (x, y)))
@@ -324,6 +325,11 @@ class Canvas(QWidget):
             if away < least or (best is not None and away == least and mark.track == self.picture.selected):
                 best, least = mark, away
         return best
+
+    def _places_beside(self, mark: Mark) -> bool:
+        """Whether a click near a point places the active one, which has no place: beside the glyph, not on it."""
+        away = _length(QPointF(*self.mapping.to_widget(*mark.xy)) - self._mouse)
+        return self.places and self.picture.selected is None and away > overlay.RADIUS
 
     def _drag(self, before: QPointF, *, fine: bool) -> None:
         if self._grab is None:

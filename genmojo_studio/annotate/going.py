@@ -103,8 +103,8 @@ class Going:
             at = places.index(self._s.active) if self._s.active in places else -1
             self._s.select(*places[(at + step) % len(places)])
 
-    def next_unplaced(self) -> None:
-        """The next point without a track: of this object first, then of the next ones."""
+    def next_unplaced(self) -> bool:
+        """The next point without a track: of this object first, then of the next ones. False if there is none."""
         objects = [o.id for o in self._s.objects()]
         own = self._s.active[0]
         order = [own, *(o for o in objects if o != own)] if own in objects else objects
@@ -112,8 +112,8 @@ class Going:
             for number in range(1, self._s.limit("points") + 1):
                 if self._s.track_of(object_id, number) is None:
                     self._s.select(object_id, number)
-                    return
-        self._s.said.emit(tr("All points are placed. Seed the tracks now (Ctrl+G)."))
+                    return True
+        return False
 
     def _show(self, spot: Spot) -> None:
         self._s.select_track(spot.track)

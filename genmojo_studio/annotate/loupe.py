@@ -8,6 +8,8 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPen
 
+from genmojo_studio.annotate.colours import point_colour
+from genmojo_studio.annotate.overlay import RADIUS, glyph_path
 from genmojo_studio.annotate.patches import difference, patch
 from genmojo_studio.translate import tr
 
@@ -17,23 +19,26 @@ _GAP = 4
 
 @dataclass
 class Source:
-    """A frame (H, W, 4) and the raster position whose surroundings are shown."""
+    """A frame (H, W, 4), the raster position whose surroundings are shown, and where the point is in that frame."""
 
     frame: np.ndarray
     xy: tuple[float, float]
+    point: tuple[float, float] | None = None
 
 
 @dataclass
 class Loupe:
     """What the loupe shows: now, the previous key, the first frame, and the difference of now and the key.
 
-    `sources` holds "now", "key" and "first" as far as they are known.
+    `sources` holds "now", "key" and "first" as far as they are known. `smooth`: bicubic, else pixels are squares.
+    `looks`: place of the point's object and its number from 0, which give glyph and colour.
     """
 
     on: bool = False
     zoom: float = 8.0
     smooth: bool = False
     sources: dict[str, Source] = field(default_factory=dict)
+    looks: tuple[int, int] = (0, 0)
 
     def paint(self, painter: QPainter, area: QRect, mouse: QPointF) -> None:
         """Draw the tiles beside the mouse, on the side with more room."""
@@ -51,6 +56,7 @@ class Loupe:
         for k, (name, title) in enumerate(names.items()):
             place = QRectF(x + _GAP + (k % 2) * (TILE + _GAP), y + _GAP + (k // 2) * (TILE + _GAP), TILE, TILE)
             self._tile(painter, place, tiles.get(name), title)
+            self._point(painter, place, self.sources.get(name))
 
     def _tiles(self, ratio: float) -> dict[str, np.ndarray]:
         pixels = round(TILE * ratio)
@@ -61,6 +67,20 @@ class Loupe:
         if "now" in tiles and "key" in tiles:
             tiles["difference"] = difference(tiles["now"], tiles["key"])
         return tiles
+
+    def _point(self, painter: QPainter, place: QRectF, source: Source | None) -> None:
+        """The point's glyph where it is, hollow, so that the pixels below show."""
+        if source is None or source.point is None:
+            return
+        shift = [(p - c) * self.zoom for p, c in zip(source.point, source.xy, strict=True)]
+        centre = place.center() + QPointF(*shift)
+        if not place.adjusted(RADIUS, RADIUS, -RADIUS, -RADIUS).contains(centre):
+            return
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        glyph = glyph_path(self.looks[1], RADIUS).translated(centre)
+        for colour, thick in ((QColor(0, 0, 0, 150), 3.0), (QColor(*point_colour(*self.looks)), 1.4)):
+            painter.setPen(QPen(colour, thick))
+            painter.drawPath(glyph)
 
     def _tile(self, painter: QPainter, place: QRectF, picture: np.ndarray | None, title: str) -> None:
         if picture is None:

@@ -61,6 +61,8 @@ class Session(QObject):
         self.painting: Painting | None = None
         self.suspicion: dict[int, np.ndarray] = {}  # track -> (T,) 0..1
         self.snap = False
+        self.first_frames: dict[int, int] = {}  # object id -> frame in which it is first seen, as far as that is known
+        self.placed: tuple[int, int] | None = None  # the point placed just now, while the next one is active
         self.hand_masks: dict[int, np.ndarray] = {}  # object id -> (T, h, w) bool, made in step 1
         self._points: dict[tuple[int, int], int] = {}
         self._looked_up = -1
@@ -90,6 +92,11 @@ class Session(QObject):
         """The active point's track, None if it has none yet."""
         return self.track_of(*self.active)
 
+    @property
+    def nudged(self) -> int | None:
+        """The track that nudges move: the active point's, or that of the point placed just now."""
+        return self.track if self.track is not None or self.placed is None else self.track_of(*self.placed)
+
     def track_of(self, object_id: int, number: int) -> int | None:
         """The track of a point of an object."""
         if self._looked_up != self.annotation.revision:  # asked for at every step: never a search
@@ -109,6 +116,10 @@ class Session(QObject):
     def limit(self, name: str) -> int:
         """How many "objects" per clip or "points" per object this project wants."""
         return int(self.annotation.meta.get(f"limit_{name}", OBJECTS if name == "objects" else POINTS))
+
+    def first_frame(self, object_id: int) -> int:
+        """The frame in which an object is first seen, 0 as long as nobody knows."""
+        return self.first_frames.get(object_id, 0)
 
     def mask_at(self, frame: int) -> np.ndarray | None:
         """(h, w) object ids of a frame, from the clip or made by hand; None if there are none."""
@@ -143,10 +154,15 @@ class Session(QObject):
 
     def select(self, object_id: int, number: int = 1) -> None:
         """Make a point active."""
-        self.active = (object_id, number)
+        self.active, self.placed = (object_id, number), None
         self.state.set(selected_object=object_id or None, selected_track=self.track)
         self.selected.emit()
         self.shown.emit()
+
+    def set_placed(self, point: tuple[int, int]) -> None:
+        """Nudges go to this point until another one is selected."""
+        self.placed = point
+        self.selected.emit()
 
     def select_track(self, track: int) -> None:
         """Make a track's point active."""
@@ -190,12 +206,16 @@ class Session(QObject):
         self.cache.close()
 
     def _moved(self, move: object, sentence: str) -> None:
+        before = dict(self.annotation.tracks)
         try:
             step = move() if callable(move) else None
         except GenmojoError as error:
             self.said.emit(str(error))
             return
         if isinstance(step, Step):
+            gone = None if step.track in self.annotation.tracks else before.get(step.track or 0)
+            if gone is not None:
+                self.select(gone.object, gone.number)  # the point that was taken back is the next to be placed
             self.show_step(step, sentence)
         else:
             self.said.emit(tr("Nothing more to take back or do again."))

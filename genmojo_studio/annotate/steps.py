@@ -23,6 +23,10 @@ class Step:
     """A step: title, what to do in a sentence, action ids of its buttons in groups, its page of the information panel.
 
     `missing(annotation, points, stride)` says what is still to be done in a sentence, "" when the step is done.
+
+    clicks: a click in the frame places or moves the active point. places_points: clicks place one point after the
+    other, those of each object on the frame in which it is first seen. needs_track: begins with a track on show.
+    shows_strip: begins with the stabilised strip on show.
     """
 
     name: str
@@ -31,6 +35,10 @@ class Step:
     buttons: tuple[tuple[str, tuple[str, ...]], ...]
     page: str
     missing: Gate
+    clicks: bool = True
+    places_points: bool = False
+    needs_track: bool = False
+    shows_strip: bool = False
 
 
 def _objects_missing(annotation: Annotation, points: int, stride: int) -> str:
@@ -135,6 +143,7 @@ STEPS = (
         ),
         "objects",
         _objects_missing,
+        clicks=False,
     ),
     Step(
         "points",
@@ -148,6 +157,7 @@ STEPS = (
         ),
         "points",
         _points_missing,
+        places_points=True,
     ),
     Step(
         "refine",
@@ -164,6 +174,8 @@ STEPS = (
         ),
         "refine",
         _refine_missing,
+        needs_track=True,
+        shows_strip=True,
     ),
     Step(
         "review",
@@ -177,5 +189,12 @@ STEPS = (
         ),
         "review",
         _review_missing,
+        needs_track=True,
+        shows_strip=True,
     ),
 )
+
+
+def place_of(name: str) -> int:
+    """Place (from 0) of the step of a name; ValueError where there is none."""
+    return [step.name for step in STEPS].index(name)

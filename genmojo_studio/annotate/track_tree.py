@@ -142,7 +142,8 @@ class TrackTree(QTreeWidget):
             return review_name(info.review), plain
         if kind == "frame":
             keys = session.annotation.keys(track)
-            return (tr("frame {n}").format(n=keys[0]) if len(keys) else "–"), plain
+            late = tr("frame {n}, late") if len(keys) and keys[0] else tr("frame {n}")
+            return (late.format(n=keys[0]) if len(keys) else "–"), plain
         if kind == "doubt":
             values = session.suspicion.get(track)
             doubt = float(values[session.frame]) if values is not None else 0.0

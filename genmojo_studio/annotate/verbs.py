@@ -28,6 +28,9 @@ def place(session: Session, xy: tuple[float, float], *, snapped: bool = False) -
     if object_id not in session.annotation.objects:
         session.said.emit(tr("Choose an object first (step 1)."))
         return None
+    if track is None and outside(session, xy):
+        session.said.emit(tr("A point begins where it is seen: click inside the picture."))
+        return None
     if track is None:
         return session.do(_first_key(session, object_id, number, xy, snapped=snapped))
     return set_key(session, track, xy, state=VISIBLE, snapped=snapped)
@@ -44,7 +47,15 @@ def set_key(
         return None
     step = session.do(edit)
     session.judged.emit(track, session.frame, True)
+    seen = session.annotation.cells(track, np.array([session.frame])).state[0] == VISIBLE
+    if step is not None and seen and outside(session, xy):
+        session.said.emit(tr("The point is outside the picture, yet marked visible: O marks it as out of view."))
     return in_work(session, track, step)
+
+
+def outside(session: Session, xy: tuple[float, float]) -> bool:
+    """True for a raster position beyond the picture."""
+    return not (0 <= xy[0] <= session.annotation.size[0] and 0 <= xy[1] <= session.annotation.size[1])
 
 
 def in_work(session: Session, track: int, step: int | None) -> int | None:
@@ -56,12 +67,13 @@ def in_work(session: Session, track: int, step: int | None) -> int | None:
 
 
 def nudge(session: Session, dx: float, dy: float) -> int | None:
-    """Move the active point by raster pixels."""
-    track = session.track
+    """Move the active point, or the one placed just now, by raster pixels."""
+    track = session.nudged
     if track is None:
         return None
     cells = session.annotation.cells(track, np.array([session.frame]))
     if cells.state[0] == NONE:
+        session.said.emit(tr("The point has no place in this frame."))
         return None
     x, y = cells.xy[0]
     return set_key(session, track, (float(x) + dx, float(y) + dy))

@@ -24,6 +24,7 @@ from shiboken6 import isValid
 from genmojo_core.errors import GenmojoError
 from genmojo_studio import notify, theme
 from genmojo_studio.actions import ActionTable
+from genmojo_studio.annotate import steps
 from genmojo_studio.annotate.bindings import Hands, bind, position_text
 from genmojo_studio.annotate.button_panel import ButtonPanel, StepBar
 from genmojo_studio.annotate.canvas import Canvas, Tool
@@ -36,7 +37,6 @@ from genmojo_studio.annotate.refine_page import RefinePage
 from genmojo_studio.annotate.review_page import ReviewPage
 from genmojo_studio.annotate.screen import Screen
 from genmojo_studio.annotate.session import Session, open_session
-from genmojo_studio.annotate.steps import STEPS
 from genmojo_studio.annotate.strip import Strip
 from genmojo_studio.annotate.tour import Tour
 from genmojo_studio.annotate.trackability import measure
@@ -215,6 +215,8 @@ class AnnotateWorkspace(QMainWindow):
         super().resizeEvent(event)
         low = self.height() <= _LOW
         if low != self._low:
+            if self.session is not None:
+                self.save_layout()  # of the height before
             self._low = low
             if self.session is not None:
                 QTimer.singleShot(0, self.restore_layout)
@@ -228,21 +230,24 @@ class AnnotateWorkspace(QMainWindow):
 
     def show_step(self, place: int) -> None:
         """Bring a step's buttons, page and layout to the front."""
-        if self.session is None or not 0 <= place < len(STEPS):
+        if self.session is None or not 0 <= place < len(steps.STEPS):
             return
         if place != self.step:
             self.save_layout()
         self.step = place
-        step = STEPS[place]
+        step = steps.STEPS[place]
         self.buttons.show_step(step)
         self.pages.setCurrentWidget(self._by_name[step.page])
         self.docks["information"].setWindowTitle(f"{tr('Information')}: {tr(step.title)}")
-        self.strip.setVisible(step.name in ("refine", "review"))
-        if step.name != "objects":
+        self.strip.setVisible(step.shows_strip)
+        if step.clicks:
             self.objects.use_tool(None)
+        self.canvas.places = step.places_points
         tracks = self.session.annotation.tracks
-        if place >= 2 and self.session.track is None and tracks:
+        if step.needs_track and self.session.track is None and tracks:
             self.session.select_track(next(iter(tracks)))
+        if step.places_points and self.hands is not None:
+            self.hands.placing.begin()
         self.restore_layout()
         self._show_steps()
         self.canvas.setFocus()
@@ -264,7 +269,7 @@ class AnnotateWorkspace(QMainWindow):
 
     def _layout_name(self) -> str:
         """Layouts are kept per step, those of low windows by themselves: sizes of one make no sense in the other."""
-        return f"annotate-{STEPS[self.step].name}{'-low' if self._low else ''}"
+        return f"annotate-{steps.STEPS[self.step].name}{'-low' if self._low else ''}"
 
     def _size_docks(self) -> None:
         wide, high = max(self.width(), 1000), max(self.height(), 600)
@@ -291,7 +296,7 @@ class AnnotateWorkspace(QMainWindow):
             return
         self.bar.position.setText(position_text(x, y, session.annotation.size))
         frame = session.cache.get(session.frame)
-        if STEPS[self.step].name != "points" or frame is None or self.canvas.mouse_raster() is None:
+        if not steps.STEPS[self.step].places_points or frame is None or self.canvas.mouse_raster() is None:
             return
         view = session.annotation.at(session.frame)
         others = view.xy[view.ids != (session.track or -1)]
@@ -299,7 +304,7 @@ class AnnotateWorkspace(QMainWindow):
 
     def next_panel(self, step: int = 1) -> None:
         """Move the keyboard on (-1: back): frame, steps, buttons, information, video play, and around."""
-        page = self._by_name[STEPS[self.step].page]
+        page = self._by_name[steps.STEPS[self.step].page]
         panels: list[QWidget] = [self.canvas, self.bar, self.buttons, page, self.play]
         stops = [panel for panel in panels if panel.isVisible()]
         focus = self.focusWidget()
@@ -339,7 +344,7 @@ class AnnotateWorkspace(QMainWindow):
         if self.session is None:
             return
         session = self.session
-        missing = [s.missing(session.annotation, session.limit("points"), session.stride) for s in STEPS]
+        missing = [s.missing(session.annotation, session.limit("points"), session.stride) for s in steps.STEPS]
         self.bar.show_step(self.step, missing)
         self.buttons.refresh()
 
@@ -348,8 +353,8 @@ class AnnotateWorkspace(QMainWindow):
         if self.session is None:
             return 0
         session = self.session
-        lacking = (bool(s.missing(session.annotation, session.limit("points"), session.stride)) for s in STEPS)
-        return next((n for n, lacks in enumerate(lacking) if lacks), len(STEPS) - 1)
+        lacking = (bool(s.missing(session.annotation, session.limit("points"), session.stride)) for s in steps.STEPS)
+        return next((n for n, lacks in enumerate(lacking) if lacks), len(steps.STEPS) - 1)
 
     def _stored(self, seconds: float) -> None:
         if self.session is not None and not self.session.project.read_only:  # else word of an earlier clip, too late

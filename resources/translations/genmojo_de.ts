@@ -140,10 +140,6 @@
       <translation>Schlüssel</translation>
     </message>
     <message>
-      <source>All points are placed. Seed the tracks now (Ctrl+G).</source>
-      <translation>Alle Punkte sind gesetzt. Verfolgen Sie sie jetzt (Strg+G).</translation>
-    </message>
-    <message>
       <source>No more keys that way.</source>
       <translation>In dieser Richtung gibt es keine Schlüssel mehr.</translation>
     </message>
@@ -552,6 +548,18 @@
       <translation>Es sind schon {n} Objekte; verwerfen Sie erst eines.</translation>
     </message>
     <message>
+      <source>This frame is not on show yet.</source>
+      <translation>Dieses Bild ist noch nicht zu sehen.</translation>
+    </message>
+    <message>
+      <source>All points are placed. Seed the tracks now (Ctrl+G).</source>
+      <translation>Alle Punkte sind gesetzt. Verfolgen Sie sie jetzt (Strg+G).</translation>
+    </message>
+    <message>
+      <source>{point} has its place: drag it, or delete its track first.</source>
+      <translation>{point} ist schon gesetzt: ziehen, oder zuerst die Spur löschen.</translation>
+    </message>
+    <message>
       <source>Dope sheet or graphs</source>
       <translation>Zeitübersicht oder Kurven</translation>
     </message>
@@ -592,24 +600,28 @@
       <translation>{state} malen</translation>
     </message>
     <message>
-      <source>free</source>
-      <translation>frei</translation>
+      <source>free names</source>
+      <translation>freie Namen</translation>
     </message>
     <message>
-      <source>animal</source>
-      <translation>Tier</translation>
+      <source>an animal</source>
+      <translation>ein Tier</translation>
     </message>
     <message>
-      <source>fish</source>
-      <translation>Fisch</translation>
+      <source>a person</source>
+      <translation>ein Mensch</translation>
     </message>
     <message>
-      <source>vehicle</source>
-      <translation>Fahrzeug</translation>
+      <source>a fish</source>
+      <translation>ein Fisch</translation>
     </message>
     <message>
-      <source>cuboid</source>
-      <translation>Quader</translation>
+      <source>a vehicle</source>
+      <translation>ein Fahrzeug</translation>
+    </message>
+    <message>
+      <source>a box</source>
+      <translation>ein Kasten</translation>
     </message>
     <message>
       <source>Off the object's mask.</source>
@@ -724,8 +736,20 @@
       <translation>Marke in der Mitte</translation>
     </message>
     <message>
+      <source>{point} has its place: drag it or click beside it to move it.</source>
+      <translation>{point} ist gesetzt: zum Verschieben ziehen oder daneben klicken.</translation>
+    </message>
+    <message>
       <source>Template of point names</source>
       <translation>Vorlage für Punktnamen</translation>
+    </message>
+    <message>
+      <source>name of the point</source>
+      <translation>Name des Punkts</translation>
+    </message>
+    <message>
+      <source>Name of the active point</source>
+      <translation>Name des aktiven Punkts</translation>
     </message>
     <message>
       <source>How well the place under the mouse can be followed</source>
@@ -734,10 +758,6 @@
     <message>
       <source>Seed tracks…</source>
       <translation>Spuren vorschlagen…</translation>
-    </message>
-    <message>
-      <source>A click moves {point}.</source>
-      <translation>Ein Klick verschiebt {point}.</translation>
     </message>
     <message>
       <source>A click places {point}.</source>
@@ -756,12 +776,24 @@
       <translation>Wählen Sie zuerst in Schritt 1 Objekte.</translation>
     </message>
     <message>
-      <source>Suspicious spots, worst first</source>
-      <translation>Verdächtige Stellen, schlechteste zuerst</translation>
+      <source>Name points</source>
+      <translation>Punkte benennen</translation>
     </message>
     <message>
-      <source>a person</source>
-      <translation>ein Mensch</translation>
+      <source>Ctrl and an arrow nudge {point}.</source>
+      <translation>Strg und ein Pfeil rücken {point}.</translation>
+    </message>
+    <message>
+      <source>The object is seen from frame {n} on: this track would start late.</source>
+      <translation>Das Objekt ist ab Bild {n} zu sehen: Diese Spur finge spät an.</translation>
+    </message>
+    <message>
+      <source>The object is first seen in frame {n}.</source>
+      <translation>Das Objekt ist zuerst in Bild {n} zu sehen.</translation>
+    </message>
+    <message>
+      <source>Suspicious spots, worst first</source>
+      <translation>Verdächtige Stellen, schlechteste zuerst</translation>
     </message>
     <message>
       <source>tracker</source>
@@ -898,6 +930,10 @@
     <message>
       <source>The optimisation could not be started.</source>
       <translation>Die Optimierung ließ sich nicht starten.</translation>
+    </message>
+    <message>
+      <source>Nothing to snap to here: a click goes where the mouse is.</source>
+      <translation>Hier gibt es nichts zum Einrasten: Ein Klick geht dorthin, wo die Maus ist.</translation>
     </message>
     <message>
       <source>Seed tracks</source>
@@ -1384,6 +1420,10 @@
       <translation>Objekte und Punkte</translation>
     </message>
     <message>
+      <source>frame {n}, late</source>
+      <translation>Bild {n}, spät</translation>
+    </message>
+    <message>
       <source>frame {n}</source>
       <translation>Bild {n}</translation>
     </message>
@@ -1426,6 +1466,18 @@
     <message>
       <source>Choose an object first (step 1).</source>
       <translation>Wählen Sie zuerst ein Objekt (Schritt 1).</translation>
+    </message>
+    <message>
+      <source>A point begins where it is seen: click inside the picture.</source>
+      <translation>Ein Punkt beginnt, wo er zu sehen ist: ins Bild klicken.</translation>
+    </message>
+    <message>
+      <source>The point is outside the picture, yet marked visible: O marks it as out of view.</source>
+      <translation>Der Punkt liegt außerhalb des Bilds, gilt aber als sichtbar: O setzt ihn auf außer Sicht.</translation>
+    </message>
+    <message>
+      <source>The point has no place in this frame.</source>
+      <translation>Der Punkt hat in diesem Bild keinen Ort.</translation>
     </message>
     <message>
       <source>Look at this point, then press Enter again.</source>
@@ -3310,6 +3362,38 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Punkt 5 des Objekts ist aktiv.</translation>
     </message>
     <message>
+      <source>Point 6</source>
+      <translation>Punkt 6</translation>
+    </message>
+    <message>
+      <source>Point 6 of the object is active.</source>
+      <translation>Punkt 6 des Objekts ist aktiv.</translation>
+    </message>
+    <message>
+      <source>Point 7</source>
+      <translation>Punkt 7</translation>
+    </message>
+    <message>
+      <source>Point 7 of the object is active.</source>
+      <translation>Punkt 7 des Objekts ist aktiv.</translation>
+    </message>
+    <message>
+      <source>Point 8</source>
+      <translation>Punkt 8</translation>
+    </message>
+    <message>
+      <source>Point 8 of the object is active.</source>
+      <translation>Punkt 8 des Objekts ist aktiv.</translation>
+    </message>
+    <message>
+      <source>Point 9</source>
+      <translation>Punkt 9</translation>
+    </message>
+    <message>
+      <source>Point 9 of the object is active.</source>
+      <translation>Punkt 9 des Objekts ist aktiv.</translation>
+    </message>
+    <message>
       <source>Object 1</source>
       <translation>Objekt 1</translation>
     </message>
@@ -3348,6 +3432,38 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Makes object 5 active.</source>
       <translation>Macht Objekt 5 aktiv.</translation>
+    </message>
+    <message>
+      <source>Object 6</source>
+      <translation>Objekt 6</translation>
+    </message>
+    <message>
+      <source>Makes object 6 active.</source>
+      <translation>Macht Objekt 6 aktiv.</translation>
+    </message>
+    <message>
+      <source>Object 7</source>
+      <translation>Objekt 7</translation>
+    </message>
+    <message>
+      <source>Makes object 7 active.</source>
+      <translation>Macht Objekt 7 aktiv.</translation>
+    </message>
+    <message>
+      <source>Object 8</source>
+      <translation>Objekt 8</translation>
+    </message>
+    <message>
+      <source>Makes object 8 active.</source>
+      <translation>Macht Objekt 8 aktiv.</translation>
+    </message>
+    <message>
+      <source>Object 9</source>
+      <translation>Objekt 9</translation>
+    </message>
+    <message>
+      <source>Makes object 9 active.</source>
+      <translation>Macht Objekt 9 aktiv.</translation>
     </message>
     <message>
       <source>Next point</source>
@@ -3430,8 +3546,8 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Auf die Ähnlichkeit einrasten</translation>
     </message>
     <message>
-      <source>Clicks go to the best likeness nearby; shown before.</source>
-      <translation>Klicks gehen zur ähnlichsten Stelle in der Nähe; sie wird vorher gezeigt.</translation>
+      <source>Clicks go to the best likeness nearby, on a point's first key to the nearest corner; shown before.</source>
+      <translation>Klicks gehen zur ähnlichsten Stelle in der Nähe, beim ersten Schlüssel eines Punkts zur nächsten Ecke; sie wird vorher gezeigt.</translation>
     </message>
     <message>
       <source>Nudge left</source>
@@ -3608,6 +3724,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Keeps the loupe open.</source>
       <translation>Lässt die Lupe offen.</translation>
+    </message>
+    <message>
+      <source>Smooth loupe</source>
+      <translation>Glatte Lupe</translation>
+    </message>
+    <message>
+      <source>Pixels melt into each other, or show as squares.</source>
+      <translation>Pixel gehen ineinander über oder sind Quadrate.</translation>
     </message>
     <message>
       <source>Hide what is drawn while held</source>
@@ -4312,10 +4436,6 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Change point {number}</source>
       <translation>Punkt {number} ändern</translation>
-    </message>
-    <message>
-      <source>Name points</source>
-      <translation>Punkte benennen</translation>
     </message>
     <message>
       <source>Swap point {one} and point {other}</source>

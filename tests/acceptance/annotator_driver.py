@@ -253,6 +253,7 @@ class Hands:
     def click_at(self, x: float, y: float) -> None:
         """Zoom there and click; where another point is in the way, drag the own one."""
         canvas = self.w.canvas
+        self.wait(lambda: self.w.screen_link.painted == self.s.frame, 30)  # a person clicks what is on show
         canvas.zoom(ZOOM / canvas.mapping.zoom)
         canvas.mapping = canvas.mapping.centred(x, y, (canvas.width(), canvas.height()))
         QApplication.processEvents()

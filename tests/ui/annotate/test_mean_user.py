@@ -103,7 +103,7 @@ def test_undo_while_a_key_is_being_solved(workspace, qtbot):
     for frame in (6, 9, 12):
         session.go(frame)
         x, y = session.annotation.track(track).xy[frame].tolist()
-        workspace.hands.dragged(track, x + 9.0, y + 5.0)
+        workspace.hands.placing.dragged(track, x + 9.0, y + 5.0)
         assert session.annotation.track(track).flags[frame] & KEY and workspace.work.tracker.tasks.busy
         session.undo()
     settled(workspace, qtbot)
@@ -119,7 +119,7 @@ def test_the_point_is_dragged_again_while_it_is_being_solved(workspace, qtbot):
     session, track = workspace.session, workspace.session.track
     session.go(8)
     for shift in range(1, 6):
-        workspace.hands.dragged(track, 30.0 + shift, 40.0)
+        workspace.hands.placing.dragged(track, 30.0 + shift, 40.0)
     settled(workspace, qtbot)
     cells = session.annotation.track(track)
     assert cells.xy[8].tolist() == [35.0, 40.0] and cells.flags[8] & KEY, "the person's last word stands"
@@ -144,7 +144,7 @@ def test_the_window_closes_in_the_middle_of_it(workspace, qtbot, clip_folder, tm
             qtbot.waitUntil(lambda: all((workspace.session.annotation.track(t).state != NONE).all()
                                         for t in workspace.session.annotation.tracks), timeout=60_000)  # fmt: skip
             workspace.show_step(2)
-            workspace.hands.dragged(workspace.session.track, 40.0, 40.0)
+            workspace.hands.placing.dragged(workspace.session.track, 40.0, 40.0)
     path, digest = workspace.session.project.path, workspace.session.annotation.digest()
     workspace.close()
     assert workspace.session is None
