@@ -8,6 +8,7 @@ from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QLineEdit, QProgressBar, QPushButton, QVBoxLayout, QWidget
 
+from genmojo_core.sentences import say
 from genmojo_core.tracks.edit_tracks import update_track
 from genmojo_core.tracks.edits import set_meta
 from genmojo_studio.annotate.session import Session
@@ -142,11 +143,11 @@ class PointsPage(QWidget):
         """
         session, old, new = self._session, self._template(), str(self.template.currentData())
         edit = set_meta(session.annotation, _key(session.active[0]), new)
-        step = session.do(replace(edit, title=tr("Name points")))
+        step = session.do(replace(edit, title=say("name_points")))
         for info in session.annotation.tracks_of(session.active[0]) if step is not None else ():
             name = _template_name(new, info.number)
             if info.name in ("", _template_name(old, info.number)) and name != info.name and not info.locked:
-                edit = update_track(session.annotation, info.id, tr("Name points"), session.frame, name=name)
+                edit = update_track(session.annotation, info.id, say("name_points"), session.frame, name=name)
                 session.do(edit, step)
         self.refresh()
 
@@ -156,7 +157,7 @@ class PointsPage(QWidget):
         self.name.setModified(False)
         name = self.name.text().strip()
         if track is not None and name != session.annotation.tracks[track].name:
-            session.do(update_track(session.annotation, track, tr("Name points"), session.frame, name=name))
+            session.do(update_track(session.annotation, track, say("name_points"), session.frame, name=name))
         self.refresh()
 
 

@@ -776,10 +776,6 @@
       <translation>Wählen Sie zuerst in Schritt 1 Objekte.</translation>
     </message>
     <message>
-      <source>Name points</source>
-      <translation>Punkte benennen</translation>
-    </message>
-    <message>
       <source>Ctrl and an arrow nudge {point}.</source>
       <translation>Strg und ein Pfeil rücken {point}.</translation>
     </message>
@@ -4436,6 +4432,10 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Change point {number}</source>
       <translation>Punkt {number} ändern</translation>
+    </message>
+    <message>
+      <source>Name points</source>
+      <translation>Punkte benennen</translation>
     </message>
     <message>
       <source>Swap point {one} and point {other}</source>
