@@ -134,12 +134,13 @@ def say(key: str, **values: object) -> str:
     return SENTENCES[key].format(**values)
 
 
-def translated(words: str, translate: Callable[[str], str], point: str = ".") -> str:
+def translated(words: str, translate: Callable[[str], str], point: str = ".", more: tuple[str, ...] = ()) -> str:
     """Words of `say` in the language of `translate`, which is given the sentence; values that are sentences likewise.
 
-    Words that no sentence gives come back as they are. `point` is that language's decimal point.
+    Words that no sentence gives come back as they are. `point` is that language's decimal point; `more` are sentences
+    with fields beside those of SENTENCES.
     """
-    template, values = _origin(words)
+    template, values = origin(words, more)
     if not template:
         return words
     numbers = _numbers(template)
@@ -154,9 +155,9 @@ def translated(words: str, translate: Callable[[str], str], point: str = ".") ->
 
 
 @lru_cache(maxsize=4096)
-def _origin(words: str) -> tuple[str, dict[str, str]]:
+def origin(words: str, more: tuple[str, ...] = ()) -> tuple[str, dict[str, str]]:
     """The sentence that some words were made from, and its values in words; "" if there is none."""
-    for template, pattern in _patterns():
+    for template, pattern in _patterns(more):
         found = pattern.fullmatch(words)
         if found is not None:
             return template, found.groupdict()
@@ -164,10 +165,10 @@ def _origin(words: str) -> tuple[str, dict[str, str]]:
 
 
 @cache
-def _patterns() -> list[tuple[str, re.Pattern[str]]]:
+def _patterns(more: tuple[str, ...]) -> list[tuple[str, re.Pattern[str]]]:
     """Every sentence with an expression that finds its values; those with most words of their own first."""
     made = []
-    for template in SENTENCES.values():
+    for template in (*SENTENCES.values(), *more):
         parts = list(Formatter().parse(template))
         pattern = "".join(re.escape(own) + (f"(?P<{name}>.+?)" if name else "") for own, name, _, _ in parts)
         made.append((sum(len(own) for own, *_ in parts), template, re.compile(pattern, re.DOTALL)))

@@ -20,7 +20,7 @@ from PySide6.QtCore import QObject, Qt, QtMsgType, Signal, qInstallMessageHandle
 from PySide6.QtWidgets import QMessageBox, QWidget
 
 from genmojo_core.errors import GenmojoError
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import fault, tr
 
 LOG = logging.getLogger("genmojo_studio")
 _NOISE = ("QXcbConnection: XCB error", "propagateSizeHints", "QStandardPaths: ")
@@ -29,7 +29,7 @@ _NOISE = ("QXcbConnection: XCB error", "propagateSizeHints", "QStandardPaths: ")
 def tell(error: BaseException, parent: QWidget | None = None) -> None:
     """Shows a fault in a dialog: plain text, never markup from a file."""
     if isinstance(error, GenmojoError):
-        show_dialog(parent, tr("That did not work"), error.sentence(), "")
+        show_dialog(parent, tr("That did not work"), fault(error), "")
         return
     details = "".join(traceback.format_exception(error))
     LOG.error("%s", details)

@@ -4,22 +4,27 @@
     python packaging/translations.py --check    # exit 1 if a text is missing, unfinished or not compiled
 
 Texts are the arguments of `tr("...")` and `mark("...")` in genmojo_studio, those of the action tables, of the effect
-plan (genmojo_core/effects/texts.py) and of what runs tell (genmojo_core/sentences.py). Qt's own lupdate does not know
-such tables, so the source is read here; pyside6-lrelease compiles.
+plan (genmojo_core/effects/texts.py), of what runs and edits tell (genmojo_core/sentences.py) and of faults
+(fault_texts.py; the app finds them again by faults.json). Qt's own lupdate does not know such tables, so the source is
+read here; pyside6-lrelease compiles.
 """
 
 from __future__ import annotations
 
 import ast
+import json
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
+from fault_texts import fault_texts
+
 ROOT = Path(__file__).resolve().parent.parent
 FOLDER = ROOT / "resources" / "translations"
 CONTEXT = "studio"
 LANGUAGES = ("de",)
+FAULTS = FOLDER / "faults.json"
 
 
 def source_texts() -> list[str]:
@@ -38,7 +43,7 @@ def source_texts() -> list[str]:
     from genmojo_core.effects.texts import TEXTS, UNITS
     from genmojo_core.sentences import SENTENCES
 
-    return list(texts | dict.fromkeys([*TEXTS.values(), *UNITS, *SENTENCES.values()]))
+    return list(texts | dict.fromkeys([*TEXTS.values(), *UNITS, *SENTENCES.values(), *fault_texts(ROOT)]))
 
 
 def update(language: str, texts: list[str]) -> list[str]:
@@ -73,7 +78,13 @@ def compile_language(language: str) -> None:
 def main() -> int:
     """Updates and compiles, or checks."""
     texts = source_texts()
+    faults = json.dumps(fault_texts(ROOT), indent=0, ensure_ascii=False) + "\n"
     missing = 0
+    if "--check" not in sys.argv:
+        FAULTS.write_text(faults, "utf-8")
+    elif not FAULTS.exists() or FAULTS.read_text("utf-8") != faults:
+        missing = 1
+        sys.stdout.write(f"{FAULTS.name} is not that of the source; run this without --check\n")
     for language in LANGUAGES:
         if "--check" in sys.argv:
             known = _translations(FOLDER / f"genmojo_{language}.ts")

@@ -16,6 +16,7 @@ from PySide6.QtCore import QObject, Signal, SignalInstance
 from genmojo_core.clip.frames import FolderFrames, FrameSource, MaskFrames, open_source
 from genmojo_core.errors import GenmojoError
 from genmojo_studio.annotate.frame_buffers import FrameBuffers
+from genmojo_studio.translate import fault
 
 DEFAULT_BYTES = 640 << 20
 _BEHIND = 4  # of every frames held, one is kept behind the target
@@ -133,7 +134,7 @@ class FrameCache(QObject):
                 picture = source.read(frame, self._keep, self._buffers.take())
                 labels = masks.read(frame) if masks else None
             except GenmojoError as error:
-                self._fault(frame, str(error))
+                self._fault(frame, fault(error))
                 continue
             self._store(frame, picture, labels)
             del picture

@@ -22,7 +22,7 @@ from genmojo_studio.annotate.canvas import Tool
 from genmojo_studio.annotate.hand_masks import Drawn
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.background import Tasks
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import fault, tr
 
 
 class Masks(QObject):
@@ -123,7 +123,7 @@ class Masks(QObject):
         try:
             hand_masks.keep(session.project, mask, packed)
         except GenmojoError as error:
-            session.said.emit(str(error))
+            session.said.emit(fault(error))
             return
         self._known[mask] = drawn
         edit = put_objects(annotation, [replace(info, mask=mask)], say("cut_out", name=info.name))
@@ -192,6 +192,6 @@ class Masks(QObject):
         self.busy_changed.emit("")
         self.cutting.emit(1.0)
         if isinstance(error, GenmojoError):
-            self._session.said.emit(str(error))
+            self._session.said.emit(fault(error))
         else:
             notify.tell(error)

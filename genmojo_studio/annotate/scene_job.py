@@ -10,7 +10,7 @@ from PySide6.QtCore import QElapsedTimer, QObject, QProcess, QTimer, Signal
 
 from genmojo_core.tracks.annotation import CONFIRMED, KEY, Annotation
 from genmojo_core.tracks.model import NONE, PointTracks
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import fault, tr
 
 _MARGIN = 1.15  # reading, writing and the first estimates come on top of the budget
 
@@ -77,7 +77,7 @@ class SceneJob(QObject):
             self.finished.emit(str(self._output))
             return
         lines = bytes(self._process.readAllStandardError().data()).decode(errors="replace").strip().splitlines()
-        self.failed.emit(lines[-1][:400] if lines else tr("The optimisation ended without a scene."))
+        self.failed.emit(fault(lines[-1][:400]) if lines else tr("The optimisation ended without a scene."))
 
     def _error(self, error: QProcess.ProcessError) -> None:
         if error == QProcess.ProcessError.FailedToStart and not self._cancelled:

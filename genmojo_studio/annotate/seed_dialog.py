@@ -34,7 +34,7 @@ from genmojo_studio.annotate.scene_job import SceneJob, forecast, said_by_people
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.work import Work
 from genmojo_studio.settings import Settings
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import fault, tr
 
 MINUTES = (1, 2, 5, 10)
 
@@ -183,7 +183,7 @@ class SeedDialog(QDialog):
         try:
             started = self._begin(self.choice())
         except GenmojoError as error:
-            self.note.setText(str(error))
+            self.note.setText(fault(error))
             return
         if started:
             self._show_running(True)

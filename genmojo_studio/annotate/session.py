@@ -18,7 +18,7 @@ from genmojo_core.tracks.edits import Edit
 from genmojo_studio.annotate.frame_cache import FrameCache
 from genmojo_studio.settings import data_folder
 from genmojo_studio.state import AppState
-from genmojo_studio.translate import told, tr
+from genmojo_studio.translate import fault, told, tr
 
 POINTS = 5  # key points per object
 OBJECTS = 5  # objects per clip; both can be changed in the project's notes
@@ -69,7 +69,7 @@ class Session(QObject):
         self._back: list[tuple[int, tuple[int, int]]] = []
         self.annotation.listeners.append(self._touched)
         project.saved = lambda _seq, seconds: self.stored.emit(seconds)
-        project.failed = lambda error: self.said.emit(str(error))
+        project.failed = lambda error: self.said.emit(fault(error))
         self._unsubscribe = state.subscribe(self._frame_moved, "frame")
         objects = self.annotation.chosen_objects()
         if objects:
@@ -177,7 +177,7 @@ class Session(QObject):
         try:
             return self.project.do(edit, step)
         except GenmojoError as error:
-            self.said.emit(str(error))
+            self.said.emit(fault(error))
             return None
 
     def undo(self) -> None:
@@ -210,7 +210,7 @@ class Session(QObject):
         try:
             step = move() if callable(move) else None
         except GenmojoError as error:
-            self.said.emit(str(error))
+            self.said.emit(fault(error))
             return
         if isinstance(step, Step):
             gone = None if step.track in self.annotation.tracks else before.get(step.track or 0)

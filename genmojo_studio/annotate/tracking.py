@@ -27,7 +27,7 @@ from genmojo_core.tracks.suspicion import Calibration, Evidence, Spot, Suspicion
 from genmojo_studio import notify
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.background import Tasks
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import fault, tr
 
 SHOWN = 0.15  # score from which a spot stands in the queue
 _PATIENCE = 350  # ms without an edit after which suspicion is ranked anew
@@ -314,7 +314,7 @@ class Tracking(QObject):
         self.busy_changed.emit("")
         self.seeded.emit(0)
         if isinstance(error, GenmojoError):
-            self._session.said.emit(str(error))
+            self._session.said.emit(fault(error))
         else:
             notify.tell(error)
 

@@ -13,7 +13,7 @@ from genmojo_core.tracks.annotation import CONFIRMED, HUMAN, KEY, SNAPPED, Cells
 from genmojo_core.tracks.edits import CellsChange, Edit
 from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
 from genmojo_studio.annotate.session import Painting, Session
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import fault, tr
 
 DOUBT = 0.5  # suspicion from which Enter does not accept a point unseen
 
@@ -43,7 +43,7 @@ def set_key(
     try:
         edit = keys.set_key(session.annotation, track, session.frame, xy, state, snapped)
     except GenmojoError as error:
-        session.said.emit(str(error))
+        session.said.emit(fault(error))
         return None
     step = session.do(edit)
     session.judged.emit(track, session.frame, True)
@@ -220,7 +220,7 @@ def attempt(session: Session, make: object) -> int | None:
     try:
         edit = make() if callable(make) else None
     except GenmojoError as error:
-        session.said.emit(str(error))
+        session.said.emit(fault(error))
         return None
     return session.do(edit) if isinstance(edit, Edit) else None
 

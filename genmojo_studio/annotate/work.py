@@ -23,7 +23,7 @@ from genmojo_studio.annotate.hand_masks import Drawn
 from genmojo_studio.annotate.masks import Masks
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.background import Tasks
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import fault, tr
 
 _OFFERED = "candidates"  # blob: ids of masks that became candidates once, so that none comes back after an undo
 
@@ -130,7 +130,7 @@ class Work(QObject):
             return
         self.busy_changed.emit("")
         if isinstance(error, GenmojoError):
-            self._session.said.emit(str(error))
+            self._session.said.emit(fault(error))
         else:
             notify.tell(error)
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
+from genmojo_studio import translate
 from genmojo_studio.translate import mark, told, tr
 from genmojo_studio.worker import runs
 
@@ -70,7 +71,7 @@ def classify(
     log = _tail(folder / runs.LOG)
     if left.get("kind") in ("input", "exception", "memory"):
         detail = str(left.get("detail", ""))
-        return _report(left["kind"], str(left.get("title", "")), detail, folder, beat)
+        return _report(left["kind"], translate.fault(str(left.get("title", ""))), detail, folder, beat)
     crashed = _signal(exit_code) in ("SIGSEGV", "SIGBUS", "SIGILL", "SIGFPE", "SIGABRT")
     windows_fault = exit_code in (0xC0000005, -1073741819)
     if crashed or windows_fault or "Fatal Python error" in fault:

@@ -328,6 +328,26 @@
       <translation>jetzt</translation>
     </message>
     <message>
+      <source>The clip is still being read.</source>
+      <translation>Der Clip wird noch gelesen.</translation>
+    </message>
+    <message>
+      <source>Cutting the object out of every frame …</source>
+      <translation>Das Objekt wird aus jedem Bild geschnitten …</translation>
+    </message>
+    <message>
+      <source>{n} strokes; press Cut out.</source>
+      <translation>{n} Striche; drücken Sie Ausschneiden.</translation>
+    </message>
+    <message>
+      <source>Draw something first.</source>
+      <translation>Malen Sie zuerst etwas.</translation>
+    </message>
+    <message>
+      <source>object {n}</source>
+      <translation>Objekt {n}</translation>
+    </message>
+    <message>
       <source>Compare with a second annotator</source>
       <translation>Mit einer zweiten Person vergleichen</translation>
     </message>
@@ -538,10 +558,6 @@
     <message>
       <source>{n} of at most {most} objects chosen.</source>
       <translation>{n} von höchstens {most} Objekten gewählt.</translation>
-    </message>
-    <message>
-      <source>object {n}</source>
-      <translation>Objekt {n}</translation>
     </message>
     <message>
       <source>There are {n} objects already; reject one first.</source>
@@ -1424,10 +1440,6 @@
       <translation>Bild {n}</translation>
     </message>
     <message>
-      <source>The clip is still being read.</source>
-      <translation>Der Clip wird noch gelesen.</translation>
-    </message>
-    <message>
       <source>There are no masks to track in: make one in step 1.</source>
       <translation>Es gibt keine Masken, in denen verfolgt werden kann: legen Sie in Schritt 1 eine an.</translation>
     </message>
@@ -1484,20 +1496,8 @@
       <translation>Dieser Abschnitt wird gefüllt durch: {mode}</translation>
     </message>
     <message>
-      <source>Cutting the object out of every frame …</source>
-      <translation>Das Objekt wird aus jedem Bild geschnitten …</translation>
-    </message>
-    <message>
       <source>Reading the clip …</source>
       <translation>Der Clip wird gelesen …</translation>
-    </message>
-    <message>
-      <source>{n} strokes; press Cut out.</source>
-      <translation>{n} Striche; drücken Sie Ausschneiden.</translation>
-    </message>
-    <message>
-      <source>Draw something first.</source>
-      <translation>Malen Sie zuerst etwas.</translation>
     </message>
     <message>
       <source>Steps</source>
@@ -4528,6 +4528,2146 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>far from any key</source>
       <translation>weit von jedem Schlüssel</translation>
+    </message>
+    <message>
+      <source>has {keys} keys, allowed are 1 to {value}</source>
+      <translation>hat {keys} Schlüssel, erlaubt sind 1 bis {value}</translation>
+    </message>
+    <message>
+      <source>key {value} holds no camera</source>
+      <translation>Schlüssel {value} enthält keine Kamera</translation>
+    </message>
+    <message>
+      <source>key {value} has a field of view, hold or scene time that cannot be</source>
+      <translation>Schlüssel {value} hat ein Sichtfeld, eine Haltezeit oder Szenenzeit, die es nicht geben kann</translation>
+    </message>
+    <message>
+      <source>key {value} comes before the one before it has ended</source>
+      <translation>Schlüssel {value} kommt, bevor der vorige zu Ende ist</translation>
+    </message>
+    <message>
+      <source>put the keys in order of time</source>
+      <translation>ordnen Sie die Schlüssel nach der Zeit</translation>
+    </message>
+    <message>
+      <source>is no camera path</source>
+      <translation>ist kein Kamerapfad</translation>
+    </message>
+    <message>
+      <source>export one as JSON to see how it looks</source>
+      <translation>exportieren Sie einen als JSON, um zu sehen, wie er aussieht</translation>
+    </message>
+    <message>
+      <source>holds {world_to_camera} cameras for {frames} frames</source>
+      <translation>enthält {world_to_camera} Kameras für {frames} Bilder</translation>
+    </message>
+    <message>
+      <source>give one camera per frame</source>
+      <translation>geben Sie je Bild eine Kamera</translation>
+    </message>
+    <message>
+      <source>the camera of frame {value} {fault}</source>
+      <translation>die Kamera von Bild {value} {fault}</translation>
+    </message>
+    <message>
+      <source>check world_to_camera and K</source>
+      <translation>prüfen Sie world_to_camera und K</translation>
+    </message>
+    <message>
+      <source>holds no valid depth (0 % of its values are finite and positive)</source>
+      <translation>enthält keine gültige Tiefe (0 % der Werte sind endlich und positiv)</translation>
+    </message>
+    <message>
+      <source>take the file away or use --ignore depth</source>
+      <translation>nehmen Sie die Datei weg oder benutzen Sie --ignore depth</translation>
+    </message>
+    <message>
+      <source>holds intrinsics {shape} and poses {shape_2}</source>
+      <translation>enthält Intrinsik {shape} und Posen {shape_2}</translation>
+    </message>
+    <message>
+      <source>store K as (3, 3) or (T, 3, 3) and world_to_camera as (T, 4, 4)</source>
+      <translation>speichern Sie K als (3, 3) oder (T, 3, 3) und world_to_camera als (T, 4, 4)</translation>
+    </message>
+    <message>
+      <source>is {shape} beside a flow of {shape_2}</source>
+      <translation>ist {shape} neben einem Fluss von {shape_2}</translation>
+    </message>
+    <message>
+      <source>give one value per pixel</source>
+      <translation>geben Sie je Pixel einen Wert</translation>
+    </message>
+    <message>
+      <source>has the shape {shape}</source>
+      <translation>hat die Form {shape}</translation>
+    </message>
+    <message>
+      <source>give (T, H, W)</source>
+      <translation>geben Sie (T, H, W)</translation>
+    </message>
+    <message>
+      <source>give (T, H, W, 2)</source>
+      <translation>geben Sie (T, H, W, 2)</translation>
+    </message>
+    <message>
+      <source>is stored as {dtype}</source>
+      <translation>ist als {dtype} gespeichert</translation>
+    </message>
+    <message>
+      <source>store floating point numbers</source>
+      <translation>speichern Sie Gleitkommazahlen</translation>
+    </message>
+    <message>
+      <source>holds {shape} frames for a clip of {total}</source>
+      <translation>enthält {shape} Bilder für einen Clip von {total}</translation>
+    </message>
+    <message>
+      <source>give one plane per frame</source>
+      <translation>geben Sie je Bild eine Ebene</translation>
+    </message>
+    <message>
+      <source>is {shape} x {shape_2}, another shape than the frames' {source_size} x {source_size_2}</source>
+      <translation>ist {shape} x {shape_2}, eine andere Form als die der Bilder, {source_size} x {source_size_2}</translation>
+    </message>
+    <message>
+      <source>give it in the frames' shape</source>
+      <translation>geben Sie es in der Form der Bilder</translation>
+    </message>
+    <message>
+      <source>is no direction</source>
+      <translation>ist keine Richtung</translation>
+    </message>
+    <message>
+      <source>store three numbers, not all zero</source>
+      <translation>speichern Sie drei Zahlen, nicht alle null</translation>
+    </message>
+    <message>
+      <source>is no (width, height)</source>
+      <translation>ist kein Paar (Breite, Höhe)</translation>
+    </message>
+    <message>
+      <source>store two positive numbers</source>
+      <translation>speichern Sie zwei positive Zahlen</translation>
+    </message>
+    <message>
+      <source>holds a pose that cannot be inverted</source>
+      <translation>enthält eine Pose, die sich nicht umkehren lässt</translation>
+    </message>
+    <message>
+      <source>check cam_c2w</source>
+      <translation>prüfen Sie cam_c2w</translation>
+    </message>
+    <message>
+      <source>the short side is {short_side} pixels</source>
+      <translation>die kurze Seite ist {short_side} Pixel</translation>
+    </message>
+    <message>
+      <source>give 1 or more</source>
+      <translation>geben Sie 1 oder mehr</translation>
+    </message>
+    <message>
+      <source>cannot ignore '{unknown}'</source>
+      <translation>„{unknown}“ kann nicht ignoriert werden</translation>
+    </message>
+    <message>
+      <source>is {shape} x {shape_2} but the frames are {source_size} x {source_size_2}</source>
+      <translation>ist {shape} x {shape_2}, aber die Bilder sind {source_size} x {source_size_2}</translation>
+    </message>
+    <message>
+      <source>make them the same size or use --ignore background</source>
+      <translation>machen Sie sie gleich groß oder benutzen Sie --ignore background</translation>
+    </message>
+    <message>
+      <source>is {shape} x {shape_2} but the first frame is {size} x {size_2}</source>
+      <translation>ist {shape} x {shape_2}, aber das erste Bild ist {size} x {size_2}</translation>
+    </message>
+    <message>
+      <source>make all frames the same size</source>
+      <translation>machen Sie alle Bilder gleich groß</translation>
+    </message>
+    <message>
+      <source>frame {index} cannot be decoded</source>
+      <translation>Bild {index} kann nicht gelesen werden</translation>
+    </message>
+    <message>
+      <source>convert it to H.264 in mp4</source>
+      <translation>wandeln Sie es in H.264 in mp4 um</translation>
+    </message>
+    <message>
+      <source>holds positions {shape} for a clip of {total} frames</source>
+      <translation>enthält Orte {shape} für einen Clip von {total} Bildern</translation>
+    </message>
+    <message>
+      <source>store (points, frames, 2)</source>
+      <translation>speichern Sie (Punkte, Bilder, 2)</translation>
+    </message>
+    <message>
+      <source>holds states other than 0 to 3</source>
+      <translation>enthält andere Zustände als 0 bis 3</translation>
+    </message>
+    <message>
+      <source>use 0 none, 1 visible, 2 occluded, 3 out of view</source>
+      <translation>benutzen Sie 0 keiner, 1 sichtbar, 2 verdeckt, 3 außerhalb des Bildes</translation>
+    </message>
+    <message>
+      <source>store (width, height) in pixels</source>
+      <translation>speichern Sie (Breite, Höhe) in Pixeln</translation>
+    </message>
+    <message>
+      <source>is {dtype} of shape {shape}, wanted are numbers with {wanted}</source>
+      <translation>ist {dtype} der Form {shape}, verlangt sind Zahlen mit {wanted}</translation>
+    </message>
+    <message>
+      <source>store it in that shape</source>
+      <translation>speichern Sie es in dieser Form</translation>
+    </message>
+    <message>
+      <source>is a mask in colours, and ({value}, {value_2}, {value_3}) is no colour of the DAVIS palette</source>
+      <translation>ist eine farbige Maske, und ({value}, {value_2}, {value_3}) ist keine Farbe der DAVIS-Palette</translation>
+    </message>
+    <message>
+      <source>store object ids as a palette PNG</source>
+      <translation>speichern Sie Objektnummern als PNG mit Palette</translation>
+    </message>
+    <message>
+      <source>is a JPEG file that is cut short</source>
+      <translation>ist eine abgeschnittene JPEG-Datei</translation>
+    </message>
+    <message>
+      <source>copy the file again</source>
+      <translation>kopieren Sie die Datei noch einmal</translation>
+    </message>
+    <message>
+      <source>is an image that cannot be decoded</source>
+      <translation>ist ein Bild, das nicht gelesen werden kann</translation>
+    </message>
+    <message>
+      <source>write the file again</source>
+      <translation>schreiben Sie die Datei neu</translation>
+    </message>
+    <message>
+      <source>is not a PNG, and a mask must be stored without loss</source>
+      <translation>ist kein PNG, und eine Maske muss verlustfrei gespeichert sein</translation>
+    </message>
+    <message>
+      <source>write a PNG</source>
+      <translation>schreiben Sie ein PNG</translation>
+    </message>
+    <message>
+      <source>holds the object id {max}, allowed are ids up to 254</source>
+      <translation>enthält die Objektnummer {max}, erlaubt sind Nummern bis 254</translation>
+    </message>
+    <message>
+      <source>number the objects 1, 2, 3</source>
+      <translation>nummerieren Sie die Objekte 1, 2, 3</translation>
+    </message>
+    <message>
+      <source>is a WebP file that is cut short</source>
+      <translation>ist eine abgeschnittene WebP-Datei</translation>
+    </message>
+    <message>
+      <source>cannot be read ({strerror})</source>
+      <translation>kann nicht gelesen werden ({strerror})</translation>
+    </message>
+    <message>
+      <source>check the path</source>
+      <translation>prüfen Sie den Pfad</translation>
+    </message>
+    <message>
+      <source>is not an image ({data})</source>
+      <translation>ist kein Bild ({data})</translation>
+    </message>
+    <message>
+      <source>check the file's name</source>
+      <translation>prüfen Sie den Namen der Datei</translation>
+    </message>
+    <message>
+      <source>is no clip ({no} extension)</source>
+      <translation>ist kein Clip ({no} als Endung)</translation>
+    </message>
+    <message>
+      <source>give a folder of frames, an image or a video</source>
+      <translation>geben Sie einen Ordner mit Bildern, ein Bild oder ein Video</translation>
+    </message>
+    <message>
+      <source>there is no such file or folder</source>
+      <translation>es gibt keine solche Datei und keinen solchen Ordner</translation>
+    </message>
+    <message>
+      <source>holds no frames</source>
+      <translation>enthält keine Bilder</translation>
+    </message>
+    <message>
+      <source>give a folder of images, an image or a video</source>
+      <translation>geben Sie einen Ordner mit Bildern, ein Bild oder ein Video</translation>
+    </message>
+    <message>
+      <source>put images ({join}) there</source>
+      <translation>legen Sie Bilder ({join}) hinein</translation>
+    </message>
+    <message>
+      <source>holds {clips} clips ({shown}, ...)</source>
+      <translation>enthält {clips} Clips ({shown}, ...)</translation>
+    </message>
+    <message>
+      <source>give one of them, such as {clips}</source>
+      <translation>geben Sie einen davon, etwa {clips}</translation>
+    </message>
+    <message>
+      <source>holds {videos} videos</source>
+      <translation>enthält {videos} Videos</translation>
+    </message>
+    <message>
+      <source>give one of them</source>
+      <translation>geben Sie eines davon</translation>
+    </message>
+    <message>
+      <source>holds {clips} folders with frames</source>
+      <translation>enthält {clips} Ordner mit Bildern</translation>
+    </message>
+    <message>
+      <source>holds both {name} and {name_2}</source>
+      <translation>enthält sowohl {name} als auch {name_2}</translation>
+    </message>
+    <message>
+      <source>keep frames and masks in folders of their own</source>
+      <translation>halten Sie Bilder und Masken in eigenen Ordnern</translation>
+    </message>
+    <message>
+      <source>holds {value} {unit}, allowed are {most}</source>
+      <translation>enthält {value} {unit}, erlaubt sind {most}</translation>
+    </message>
+    <message>
+      <source>declares an image of {width} x {height} pixels</source>
+      <translation>gibt ein Bild von {width} x {height} Pixeln an</translation>
+    </message>
+    <message>
+      <source>the clip has no masks</source>
+      <translation>der Clip hat keine Masken</translation>
+    </message>
+    <message>
+      <source>its arrays do not fit together</source>
+      <translation>die Arrays darin passen nicht zusammen</translation>
+    </message>
+    <message>
+      <source>write it with genmojo-studio</source>
+      <translation>schreiben Sie sie mit genmojo-studio</translation>
+    </message>
+    <message>
+      <source>holds none of the clip's frames</source>
+      <translation>enthält keines der Bilder des Clips</translation>
+    </message>
+    <message>
+      <source>give the masks of this clip</source>
+      <translation>geben Sie die Masken dieses Clips</translation>
+    </message>
+    <message>
+      <source>holds a background mask (000) but no object</source>
+      <translation>enthält eine Maske des Hintergrunds (000), aber kein Objekt</translation>
+    </message>
+    <message>
+      <source>add one folder per object: 001, 002</source>
+      <translation>legen Sie je Objekt einen Ordner an: 001, 002</translation>
+    </message>
+    <message>
+      <source>is named by an object id above 254</source>
+      <translation>ist nach einer Objektnummer über 254 benannt</translation>
+    </message>
+    <message>
+      <source>number objects from 001</source>
+      <translation>nummerieren Sie die Objekte ab 001</translation>
+    </message>
+    <message>
+      <source>has masks numbered {found} to {found_2} but frames numbered {numbers} to {numbers_2}</source>
+      <translation>hat Masken mit den Nummern {found} bis {found_2}, aber Bilder mit den Nummern {numbers} bis {numbers_2}</translation>
+    </message>
+    <message>
+      <source>name masks like their frames</source>
+      <translation>benennen Sie Masken wie ihre Bilder</translation>
+    </message>
+    <message>
+      <source>the mask is {shape} x {shape_2} but its frame is {size} x {size_2}</source>
+      <translation>die Maske ist {shape} x {shape_2}, aber ihr Bild ist {size} x {size_2}</translation>
+    </message>
+    <message>
+      <source>make them the same size</source>
+      <translation>machen Sie sie gleich groß</translation>
+    </message>
+    <message>
+      <source>no object is visible in any frame (all masks are background)</source>
+      <translation>in keinem Bild ist ein Objekt sichtbar (alle Masken sind Hintergrund)</translation>
+    </message>
+    <message>
+      <source>mark at least one object, or take the masks away</source>
+      <translation>zeichnen Sie mindestens ein Objekt ein, oder nehmen Sie die Masken weg</translation>
+    </message>
+    <message>
+      <source>is no JSON object</source>
+      <translation>ist kein JSON-Objekt</translation>
+    </message>
+    <message>
+      <source>correct it or take it away</source>
+      <translation>berichtigen Sie es oder nehmen Sie es weg</translation>
+    </message>
+    <message>
+      <source>the pixel aspect is {value}, allowed is {low:g} to {high:g}</source>
+      <translation>das Seitenverhältnis der Pixel ist {value}, erlaubt ist {low:g} bis {high:g}</translation>
+    </message>
+    <message>
+      <source>{key} is {value}, allowed is {allowed:g} to {allowed_2:g}</source>
+      <translation>{key} ist {value}, erlaubt ist {allowed:g} bis {allowed_2:g}</translation>
+    </message>
+    <message>
+      <source>the objects are no mapping from id to name</source>
+      <translation>die Objekte sind keine Zuordnung von Nummern zu Namen</translation>
+    </message>
+    <message>
+      <source>write {{"1": "dog"}}</source>
+      <translation>schreiben Sie {{"1": "Hund"}}</translation>
+    </message>
+    <message>
+      <source>is no valid JSON</source>
+      <translation>ist kein gültiges JSON</translation>
+    </message>
+    <message>
+      <source>is no numpy array</source>
+      <translation>ist kein Array von numpy</translation>
+    </message>
+    <message>
+      <source>write it again with numpy</source>
+      <translation>schreiben Sie es noch einmal mit numpy</translation>
+    </message>
+    <message>
+      <source>holds Python objects, which could run code when read</source>
+      <translation>enthält Python-Objekte, die beim Lesen Code ausführen könnten</translation>
+    </message>
+    <message>
+      <source>store plain numbers</source>
+      <translation>speichern Sie bloße Zahlen</translation>
+    </message>
+    <message>
+      <source>has a header that is no numpy array's</source>
+      <translation>hat einen Kopf, der nicht zu einem Array von numpy gehört</translation>
+    </message>
+    <message>
+      <source>declares {nbytes} bytes but {file_size} are there</source>
+      <translation>gibt {nbytes} Bytes an, aber es sind {file_size} da</translation>
+    </message>
+    <message>
+      <source>ends after {data} of {count} bytes</source>
+      <translation>endet nach {data} von {count} Bytes</translation>
+    </message>
+    <message>
+      <source>holds no '{name}' (it holds {held})</source>
+      <translation>enthält kein „{name}“ (enthalten ist {held})</translation>
+    </message>
+    <message>
+      <source>store '{name}'</source>
+      <translation>speichern Sie „{name}“</translation>
+    </message>
+    <message>
+      <source>is no npz file or is damaged</source>
+      <translation>ist keine npz-Datei oder ist beschädigt</translation>
+    </message>
+    <message>
+      <source>is damaged</source>
+      <translation>ist beschädigt</translation>
+    </message>
+    <message>
+      <source>frames {first}:{end} select nothing of {total} frames</source>
+      <translation>die Bilder {first}:{end} wählen nichts von {total} Bildern</translation>
+    </message>
+    <message>
+      <source>give a range within 0:{total}</source>
+      <translation>geben Sie einen Bereich in 0:{total}</translation>
+    </message>
+    <message>
+      <source>is {here} x {here_2} but the first frame is {size} x {size_2}</source>
+      <translation>ist {here} x {here_2}, aber das erste Bild ist {size} x {size_2}</translation>
+    </message>
+    <message>
+      <source>make it as large as {first}</source>
+      <translation>machen Sie es so groß wie {first}</translation>
+    </message>
+    <message>
+      <source>is cut short</source>
+      <translation>ist abgeschnitten</translation>
+    </message>
+    <message>
+      <source>is not a PNG file</source>
+      <translation>ist keine PNG-Datei</translation>
+    </message>
+    <message>
+      <source>holds no pixels</source>
+      <translation>enthält keine Pixel</translation>
+    </message>
+    <message>
+      <source>does not start with a PNG header</source>
+      <translation>beginnt nicht mit dem Kopf eines PNG</translation>
+    </message>
+    <message>
+      <source>declares {header} bits and colour type {header_2}</source>
+      <translation>gibt {header} Bit und Farbart {header_2} an</translation>
+    </message>
+    <message>
+      <source>write it again</source>
+      <translation>schreiben Sie es neu</translation>
+    </message>
+    <message>
+      <source>cannot be decoded</source>
+      <translation>kann nicht gelesen werden</translation>
+    </message>
+    <message>
+      <source>is damaged (a checksum does not match)</source>
+      <translation>ist beschädigt (eine Prüfsumme stimmt nicht)</translation>
+    </message>
+    <message>
+      <source>a procedural clip needs at least one frame, one pixel and one shape</source>
+      <translation>ein erzeugter Clip braucht mindestens ein Bild, ein Pixel und eine Form</translation>
+    </message>
+    <message>
+      <source>holds another clip</source>
+      <translation>enthält einen anderen Clip</translation>
+    </message>
+    <message>
+      <source>choose another folder</source>
+      <translation>wählen Sie einen anderen Ordner</translation>
+    </message>
+    <message>
+      <source>cannot be written ({strerror})</source>
+      <translation>kann nicht geschrieben werden ({strerror})</translation>
+    </message>
+    <message>
+      <source>there is no procedural clip '{name}'</source>
+      <translation>es gibt keinen erzeugten Clip „{name}“</translation>
+    </message>
+    <message>
+      <source>cannot be decoded ({strerror})</source>
+      <translation>kann nicht gelesen werden ({strerror})</translation>
+    </message>
+    <message>
+      <source>none of its frames can be decoded</source>
+      <translation>keines der Bilder kann gelesen werden</translation>
+    </message>
+    <message>
+      <source>holds no frame</source>
+      <translation>enthält kein Bild</translation>
+    </message>
+    <message>
+      <source>give a video with pictures</source>
+      <translation>geben Sie ein Video mit Bildern</translation>
+    </message>
+    <message>
+      <source>holds sound but no pictures</source>
+      <translation>enthält Ton, aber keine Bilder</translation>
+    </message>
+    <message>
+      <source>holds no pictures</source>
+      <translation>enthält keine Bilder</translation>
+    </message>
+    <message>
+      <source>is stored in a codec that is not known here</source>
+      <translation>ist mit einem Codec gespeichert, der hier nicht bekannt ist</translation>
+    </message>
+    <message>
+      <source>is no video, or its header is missing or damaged</source>
+      <translation>ist kein Video, oder sein Kopf fehlt oder ist beschädigt</translation>
+    </message>
+    <message>
+      <source>record or copy it again</source>
+      <translation>nehmen Sie es neu auf oder kopieren Sie es noch einmal</translation>
+    </message>
+    <message>
+      <source>'{text}' is no goal</source>
+      <translation>„{text}“ ist kein Ziel</translation>
+    </message>
+    <message>
+      <source>write "psnr&gt;=26" or "gain&lt;0.1dB/min"</source>
+      <translation>schreiben Sie "psnr&gt;=26" oder "gain&lt;0.1dB/min"</translation>
+    </message>
+    <message>
+      <source>there is no preset '{name}'</source>
+      <translation>es gibt keine Voreinstellung „{name}“</translation>
+    </message>
+    <message>
+      <source>use one of {join}</source>
+      <translation>benutzen Sie eine von {join}</translation>
+    </message>
+    <message>
+      <source>there is no setting {unknown}</source>
+      <translation>es gibt keine Einstellung {unknown}</translation>
+    </message>
+    <message>
+      <source>correct these settings</source>
+      <translation>berichtigen Sie diese Einstellungen</translation>
+    </message>
+    <message>
+      <source>there is no effect {unknown}</source>
+      <translation>es gibt keinen Effekt {unknown}</translation>
+    </message>
+    <message>
+      <source>'{name}' cannot be switched on: {lacking}</source>
+      <translation>„{name}“ kann nicht eingeschaltet werden: {lacking}</translation>
+    </message>
+    <message>
+      <source>leave out +{name}</source>
+      <translation>lassen Sie +{name} weg</translation>
+    </message>
+    <message>
+      <source>'{item}' says neither + nor -</source>
+      <translation>„{item}“ sagt weder + noch -</translation>
+    </message>
+    <message>
+      <source>write +{item} or -{item_2}, auto or all</source>
+      <translation>schreiben Sie +{item} oder -{item_2}, auto oder all</translation>
+    </message>
+    <message>
+      <source>'{name}' is switched both on and off</source>
+      <translation>„{name}“ ist sowohl ein- als auch ausgeschaltet</translation>
+    </message>
+    <message>
+      <source>choose one</source>
+      <translation>wählen Sie eines</translation>
+    </message>
+    <message>
+      <source>the depth holds no valid value</source>
+      <translation>die Tiefe enthält keinen gültigen Wert</translation>
+    </message>
+    <message>
+      <source>take it away or --ignore depth</source>
+      <translation>nehmen Sie sie weg oder benutzen Sie --ignore depth</translation>
+    </message>
+    <message>
+      <source>the {kind} is for frame {frame} of {frames}</source>
+      <translation>die Vorgabe ({kind}) ist für Bild {frame} von {frames}</translation>
+    </message>
+    <message>
+      <source>count from 0</source>
+      <translation>zählen Sie ab 0</translation>
+    </message>
+    <message>
+      <source>the {kind}'s label is {label}</source>
+      <translation>die Nummer der Vorgabe ({kind}) ist {label}</translation>
+    </message>
+    <message>
+      <source>use 1 to 254</source>
+      <translation>benutzen Sie 1 bis 254</translation>
+    </message>
+    <message>
+      <source>the box {tolist} has no area inside the {size} x {size_2} frame</source>
+      <translation>der Kasten {tolist} hat keine Fläche im Bild von {size} x {size_2}</translation>
+    </message>
+    <message>
+      <source>give x0, y0, x1, y1 in pixels of the source</source>
+      <translation>geben Sie x0, y0, x1, y1 in Pixeln der Quelle</translation>
+    </message>
+    <message>
+      <source>the scribble has no points</source>
+      <translation>der Strich hat keine Punkte</translation>
+    </message>
+    <message>
+      <source>draw at least one</source>
+      <translation>zeichnen Sie mindestens einen</translation>
+    </message>
+    <message>
+      <source>is {dtype} {shape} for a clip of {clip} frames</source>
+      <translation>ist {dtype} {shape} für einen Clip von {clip} Bildern</translation>
+    </message>
+    <message>
+      <source>give numbers (T, H, W), one plane per frame</source>
+      <translation>geben Sie Zahlen (T, H, W), je Bild eine Ebene</translation>
+    </message>
+    <message>
+      <source>holds no finite value</source>
+      <translation>enthält keinen endlichen Wert</translation>
+    </message>
+    <message>
+      <source>take another file</source>
+      <translation>nehmen Sie eine andere Datei</translation>
+    </message>
+    <message>
+      <source>holds no model (no config.json)</source>
+      <translation>enthält kein Modell (kein config.json)</translation>
+    </message>
+    <message>
+      <source>give a folder with config.json and weights</source>
+      <translation>geben Sie einen Ordner mit config.json und Gewichten</translation>
+    </message>
+    <message>
+      <source>the transformers package has no {class_name} or is not installed</source>
+      <translation>das Paket transformers hat kein {class_name} oder ist nicht installiert</translation>
+    </message>
+    <message>
+      <source>install transformers 4.56 or newer</source>
+      <translation>installieren Sie transformers 4.56 oder neuer</translation>
+    </message>
+    <message>
+      <source>cannot be loaded as {class_name} ({error})</source>
+      <translation>kann nicht als {class_name} geladen werden ({error})</translation>
+    </message>
+    <message>
+      <source>give a complete folder of that kind of model</source>
+      <translation>geben Sie einen vollständigen Ordner dieser Art von Modell</translation>
+    </message>
+    <message>
+      <source>holds a '{kind}' model</source>
+      <translation>enthält ein Modell der Art „{kind}“</translation>
+    </message>
+    <message>
+      <source>give one of {sorted}</source>
+      <translation>geben Sie eines von {sorted}</translation>
+    </message>
+    <message>
+      <source>give one of {join}</source>
+      <translation>geben Sie eines von {join}</translation>
+    </message>
+    <message>
+      <source>names no object</source>
+      <translation>nennt kein Objekt</translation>
+    </message>
+    <message>
+      <source>give e.g. 'a red cup'</source>
+      <translation>geben Sie zum Beispiel „a red cup“</translation>
+    </message>
+    <message>
+      <source>shows no {phrases}</source>
+      <translation>zeigt {phrases} nicht</translation>
+    </message>
+    <message>
+      <source>give other words or a box</source>
+      <translation>geben Sie andere Worte oder einen Kasten</translation>
+    </message>
+    <message>
+      <source>no object is visible in any frame</source>
+      <translation>in keinem Bild ist ein Objekt sichtbar</translation>
+    </message>
+    <message>
+      <source>give masks, or a box with --box</source>
+      <translation>geben Sie Masken, oder einen Kasten mit --box</translation>
+    </message>
+    <message>
+      <source>no object was found where the boxes are</source>
+      <translation>wo die Kästen sind, wurde kein Objekt gefunden</translation>
+    </message>
+    <message>
+      <source>draw the box closer</source>
+      <translation>ziehen Sie den Kasten enger</translation>
+    </message>
+    <message>
+      <source>there is no variant {unknown}</source>
+      <translation>es gibt keine Variante {unknown}</translation>
+    </message>
+    <message>
+      <source>{seconds} s at {fps} pictures a second, {time_mode} from frame {frame} make no film</source>
+      <translation>{seconds} s bei {fps} Bildern in der Sekunde, {time_mode} ab Bild {frame}, geben keinen Film</translation>
+    </message>
+    <message>
+      <source>{short_side} pixels are no picture size</source>
+      <translation>{short_side} Pixel sind keine Bildgröße</translation>
+    </message>
+    <message>
+      <source>give 1 to 8192</source>
+      <translation>geben Sie 1 bis 8192</translation>
+    </message>
+    <message>
+      <source>is a file</source>
+      <translation>ist eine Datei</translation>
+    </message>
+    <message>
+      <source>give a folder or a name ending in .mp4</source>
+      <translation>geben Sie einen Ordner oder einen Namen, der auf .mp4 endet</translation>
+    </message>
+    <message>
+      <source>shows no object</source>
+      <translation>zeigt kein Objekt</translation>
+    </message>
+    <message>
+      <source>is {width} x {height}, the scene was made from {made_width} x {made_height}</source>
+      <translation>ist {width} x {height}, die Szene wurde aus {made_width} x {made_height} gemacht</translation>
+    </message>
+    <message>
+      <source>give the scene's own clip</source>
+      <translation>geben Sie den Clip der Szene</translation>
+    </message>
+    <message>
+      <source>has no frame {absent}, which the scene has</source>
+      <translation>hat kein Bild {absent}, die Szene schon</translation>
+    </message>
+    <message>
+      <source>cannot encode a picture of {shape}</source>
+      <translation>ein Bild der Form {shape} kann nicht kodiert werden</translation>
+    </message>
+    <message>
+      <source>the run ended without a scene</source>
+      <translation>der Lauf endete ohne Szene</translation>
+    </message>
+    <message>
+      <source>has tracks over {shape} frames, the clip has {clip}</source>
+      <translation>hat Spuren über {shape} Bilder, der Clip hat {clip}</translation>
+    </message>
+    <message>
+      <source>is no RGBA picture</source>
+      <translation>ist kein RGBA-Bild</translation>
+    </message>
+    <message>
+      <source>holds tracks but no Gaussians</source>
+      <translation>enthält Spuren, aber keine Gaussians</translation>
+    </message>
+    <message>
+      <source>give a scene written by optimize</source>
+      <translation>geben Sie eine Szene, die optimize geschrieben hat</translation>
+    </message>
+    <message>
+      <source>there is no frame {value}, the scene has {scene}</source>
+      <translation>es gibt kein Bild {value}, die Szene hat {scene}</translation>
+    </message>
+    <message>
+      <source>there is no checkpoint to resume from</source>
+      <translation>es gibt keinen Prüfpunkt, von dem es weitergehen könnte</translation>
+    </message>
+    <message>
+      <source>start without --resume</source>
+      <translation>beginnen Sie ohne --resume</translation>
+    </message>
+    <message>
+      <source>the checkpoint is of another clip or effect plan (differs in {names})</source>
+      <translation>der Prüfpunkt gehört zu einem anderen Clip oder Effektplan (verschieden: {names})</translation>
+    </message>
+    <message>
+      <source>start without --resume or use the run folder of this clip</source>
+      <translation>beginnen Sie ohne --resume oder nehmen Sie den Laufordner dieses Clips</translation>
+    </message>
+    <message>
+      <source>the checkpoint's tensors do not match their checksum</source>
+      <translation>die Tensoren des Prüfpunkts passen nicht zu ihrer Prüfsumme</translation>
+    </message>
+    <message>
+      <source>the checkpoint's tensors cannot be read</source>
+      <translation>die Tensoren des Prüfpunkts können nicht gelesen werden</translation>
+    </message>
+    <message>
+      <source>checkpoint format {format} is newer than {value}</source>
+      <translation>das Prüfpunktformat {format} ist neuer als {value}</translation>
+    </message>
+    <message>
+      <source>update GenMOJO Studio</source>
+      <translation>aktualisieren Sie GenMOJO Studio</translation>
+    </message>
+    <message>
+      <source>the checkpoint's JSON cannot be read</source>
+      <translation>das JSON des Prüfpunkts kann nicht gelesen werden</translation>
+    </message>
+    <message>
+      <source>the optimisation gives non-finite numbers again and again</source>
+      <translation>die Optimierung ergibt immer wieder nicht endliche Zahlen</translation>
+    </message>
+    <message>
+      <source>start from the last checkpoint with smaller learning rates</source>
+      <translation>beginnen Sie am letzten Prüfpunkt mit kleineren Lernraten</translation>
+    </message>
+    <message>
+      <source>no object has a visible pixel with depth</source>
+      <translation>kein Objekt hat ein sichtbares Pixel mit Tiefe</translation>
+    </message>
+    <message>
+      <source>check the masks</source>
+      <translation>prüfen Sie die Masken</translation>
+    </message>
+    <message>
+      <source>there is no method '{method}'</source>
+      <translation>es gibt kein Verfahren „{method}“</translation>
+    </message>
+    <message>
+      <source>has no cameras</source>
+      <translation>hat keine Kameras</translation>
+    </message>
+    <message>
+      <source>complete the clip before carrying points</source>
+      <translation>vervollständigen Sie den Clip, bevor Sie Punkte mitführen</translation>
+    </message>
+    <message>
+      <source>the Gaussians of {name} fill the view: {what}</source>
+      <translation>die Gaussians von {name} füllen die Ansicht: {what}</translation>
+    </message>
+    <message>
+      <source>go on from the last checkpoint with smaller learning rates</source>
+      <translation>fahren Sie am letzten Prüfpunkt mit kleineren Lernraten fort</translation>
+    </message>
+    <message>
+      <source>'{name}' cannot be changed during a run</source>
+      <translation>„{name}“ kann während eines Laufs nicht geändert werden</translation>
+    </message>
+    <message>
+      <source>change it before the next start</source>
+      <translation>ändern Sie es vor dem nächsten Start</translation>
+    </message>
+    <message>
+      <source>{name} cannot be {value}</source>
+      <translation>{name} kann nicht {value} sein</translation>
+    </message>
+    <message>
+      <source>give {kind} from {low:g} to {high:g}</source>
+      <translation>geben Sie {kind} von {low:g} bis {high:g}</translation>
+    </message>
+    <message>
+      <source>there is no run folder to resume from</source>
+      <translation>es gibt keinen Laufordner, mit dem es weitergehen könnte</translation>
+    </message>
+    <message>
+      <source>give --run-dir</source>
+      <translation>geben Sie --run-dir</translation>
+    </message>
+    <message>
+      <source>there is no scene yet</source>
+      <translation>es gibt noch keine Szene</translation>
+    </message>
+    <message>
+      <source>let the run reach its first preview</source>
+      <translation>lassen Sie den Lauf bis zu seiner ersten Vorschau kommen</translation>
+    </message>
+    <message>
+      <source>has no {name}</source>
+      <translation>hat kein {name}</translation>
+    </message>
+    <message>
+      <source>complete the clip before asking for its motion</source>
+      <translation>vervollständigen Sie den Clip, bevor Sie nach seiner Bewegung fragen</translation>
+    </message>
+    <message>
+      <source>there is no prior '{name}'</source>
+      <translation>es gibt keinen Prior „{name}“</translation>
+    </message>
+    <message>
+      <source>use embedded, none or zero123:DIR</source>
+      <translation>benutzen Sie embedded, none oder zero123:DIR</translation>
+    </message>
+    <message>
+      <source>cannot be made ({strerror})</source>
+      <translation>kann nicht angelegt werden ({strerror})</translation>
+    </message>
+    <message>
+      <source>the prior {kind} has no mean views</source>
+      <translation>der Prior {kind} hat keine mittleren Ansichten</translation>
+    </message>
+    <message>
+      <source>use sds or x0</source>
+      <translation>benutzen Sie sds oder x0</translation>
+    </message>
+    <message>
+      <source>is no safetensors file</source>
+      <translation>ist keine safetensors-Datei</translation>
+    </message>
+    <message>
+      <source>holds the state of another network (differs in {name})</source>
+      <translation>enthält den Zustand eines anderen Netzes (verschieden: {name})</translation>
+    </message>
+    <message>
+      <source>use another folder</source>
+      <translation>nehmen Sie einen anderen Ordner</translation>
+    </message>
+    <message>
+      <source>does not exist</source>
+      <translation>gibt es nicht</translation>
+    </message>
+    <message>
+      <source>train one with `genmojo train-prior` or use --prior none</source>
+      <translation>trainieren Sie einen mit `genmojo train-prior` oder benutzen Sie --prior none</translation>
+    </message>
+    <message>
+      <source>is larger than {value} MiB</source>
+      <translation>ist größer als {value} MiB</translation>
+    </message>
+    <message>
+      <source>has format {format}, this program reads {value}</source>
+      <translation>hat Format {format}, dieses Programm liest {value}</translation>
+    </message>
+    <message>
+      <source>does not match its checksum</source>
+      <translation>passt nicht zu seiner Prüfsumme</translation>
+    </message>
+    <message>
+      <source>get the file again</source>
+      <translation>besorgen Sie die Datei noch einmal</translation>
+    </message>
+    <message>
+      <source>holds tensors that its architecture has not</source>
+      <translation>enthält Tensoren, die sein Aufbau nicht hat</translation>
+    </message>
+    <message>
+      <source>has neither {join}</source>
+      <translation>hat keines von {join}</translation>
+    </message>
+    <message>
+      <source>give a complete model in diffusers' layout</source>
+      <translation>geben Sie ein vollständiges Modell in der Anordnung von diffusers</translation>
+    </message>
+    <message>
+      <source>is no folder</source>
+      <translation>ist kein Ordner</translation>
+    </message>
+    <message>
+      <source>give a model in diffusers' layout</source>
+      <translation>geben Sie ein Modell in der Anordnung von diffusers</translation>
+    </message>
+    <message>
+      <source>holds an original checkpoint</source>
+      <translation>enthält einen ursprünglichen Checkpoint</translation>
+    </message>
+    <message>
+      <source>convert it first with the script for Zero123 in diffusers/scripts</source>
+      <translation>wandeln Sie ihn erst mit dem Skript für Zero123 in diffusers/scripts um</translation>
+    </message>
+    <message>
+      <source>is told {numbers} numbers of a camera, {camera} gives another count</source>
+      <translation>bekommt {numbers} Zahlen einer Kamera, {camera} gibt eine andere Anzahl</translation>
+    </message>
+    <message>
+      <source>name the kind of model it is</source>
+      <translation>nennen Sie die Art des Modells</translation>
+    </message>
+    <message>
+      <source>has a schedule '{kind}' predicting '{target}'</source>
+      <translation>hat einen Zeitplan „{kind}“, der {target} vorhersagt</translation>
+    </message>
+    <message>
+      <source>use a model with scaled_linear betas that predicts epsilon</source>
+      <translation>nehmen Sie ein Modell mit scaled_linear, das epsilon vorhersagt</translation>
+    </message>
+    <message>
+      <source>is missing or holds no config.json</source>
+      <translation>fehlt oder enthält kein config.json</translation>
+    </message>
+    <message>
+      <source>holds no safetensors and {files} bin files</source>
+      <translation>enthält keine safetensors und {files} bin-Dateien</translation>
+    </message>
+    <message>
+      <source>save the model as safetensors</source>
+      <translation>speichern Sie das Modell als safetensors</translation>
+    </message>
+    <message>
+      <source>the package {library} is not installed</source>
+      <translation>das Paket {library} ist nicht installiert</translation>
+    </message>
+    <message>
+      <source>install genmojo-studio[zero123]</source>
+      <translation>installieren Sie genmojo-studio[zero123]</translation>
+    </message>
+    <message>
+      <source>cannot be loaded as {name} ({reason})</source>
+      <translation>kann nicht als {name} geladen werden ({reason})</translation>
+    </message>
+    <message>
+      <source>get the model as safetensors</source>
+      <translation>besorgen Sie das Modell als safetensors</translation>
+    </message>
+    <message>
+      <source>holds no Linear '{key}'</source>
+      <translation>enthält kein Linear „{key}“</translation>
+    </message>
+    <message>
+      <source>there is no rasteriser for device '{device}'</source>
+      <translation>es gibt keinen Rasterisierer für das Gerät „{device}“</translation>
+    </message>
+    <message>
+      <source>use cpu or cuda</source>
+      <translation>benutzen Sie cpu oder cuda</translation>
+    </message>
+    <message>
+      <source>torch sees no CUDA device</source>
+      <translation>torch sieht kein CUDA-Gerät</translation>
+    </message>
+    <message>
+      <source>use --device cpu</source>
+      <translation>benutzen Sie --device cpu</translation>
+    </message>
+    <message>
+      <source>gsplat is not installed</source>
+      <translation>gsplat ist nicht installiert</translation>
+    </message>
+    <message>
+      <source>install genmojo-studio[cuda] or use --device cpu</source>
+      <translation>installieren Sie genmojo-studio[cuda] oder benutzen Sie --device cpu</translation>
+    </message>
+    <message>
+      <source>{drawn} splats cover {entries} tiles of a {width} x {height} image, the limit is {value}; the widest is splat {argmax} with {max} tiles</source>
+      <translation>{drawn} Splats bedecken {entries} Kacheln eines Bildes von {width} x {height}, die Grenze ist {value}; der breiteste ist Splat {argmax} mit {max} Kacheln</translation>
+    </message>
+    <message>
+      <source>remove or shrink splats that fill the view, or render a smaller image</source>
+      <translation>entfernen oder verkleinern Sie Splats, die die Ansicht füllen, oder zeichnen Sie ein kleineres Bild</translation>
+    </message>
+    <message>
+      <source>detached_channels is {detached} of {features} channels</source>
+      <translation>detached_channels ist {detached} von {features} Kanälen</translation>
+    </message>
+    <message>
+      <source>features have shape {shape}, expected ({count}, C)</source>
+      <translation>features haben die Form {shape}, erwartet ist ({count}, C)</translation>
+    </message>
+    <message>
+      <source>{name} has shape {shape}, expected {shape_2}</source>
+      <translation>{name} hat die Form {shape}, erwartet ist {shape_2}</translation>
+    </message>
+    <message>
+      <source>cannot be written ({reason})</source>
+      <translation>kann nicht geschrieben werden ({reason})</translation>
+    </message>
+    <message>
+      <source>choose another place or free some space</source>
+      <translation>wählen Sie einen anderen Ort oder schaffen Sie Platz</translation>
+    </message>
+    <message>
+      <source>is a folder</source>
+      <translation>ist ein Ordner</translation>
+    </message>
+    <message>
+      <source>give a file name</source>
+      <translation>geben Sie einen Dateinamen</translation>
+    </message>
+    <message>
+      <source>'{or}' cannot name a camera path</source>
+      <translation>„{or}“ kann kein Name eines Kamerapfads sein</translation>
+    </message>
+    <message>
+      <source>rename it</source>
+      <translation>benennen Sie ihn um</translation>
+    </message>
+    <message>
+      <source>has no camera path '{name}'</source>
+      <translation>hat keinen Kamerapfad „{name}“</translation>
+    </message>
+    <message>
+      <source>it has {known}</source>
+      <translation>es gibt {known}</translation>
+    </message>
+    <message>
+      <source>has columns of different lengths</source>
+      <translation>hat Spalten verschiedener Länge</translation>
+    </message>
+    <message>
+      <source>what was written does not read back the same</source>
+      <translation>was geschrieben wurde, liest sich anders zurück</translation>
+    </message>
+    <message>
+      <source>check the disk</source>
+      <translation>prüfen Sie den Datenträger</translation>
+    </message>
+    <message>
+      <source>is too large for a camera path</source>
+      <translation>ist für einen Kamerapfad zu groß</translation>
+    </message>
+    <message>
+      <source>cannot be read</source>
+      <translation>kann nicht gelesen werden</translation>
+    </message>
+    <message>
+      <source>check the name</source>
+      <translation>prüfen Sie den Namen</translation>
+    </message>
+    <message>
+      <source>is no JSON</source>
+      <translation>ist kein JSON</translation>
+    </message>
+    <message>
+      <source>its camera paths are damaged</source>
+      <translation>die Kamerapfade darin sind beschädigt</translation>
+    </message>
+    <message>
+      <source>does not exist or is no file</source>
+      <translation>gibt es nicht oder ist keine Datei</translation>
+    </message>
+    <message>
+      <source>is not COCO keypoints as we know them</source>
+      <translation>ist nicht COCO mit Punkten, wie wir es kennen</translation>
+    </message>
+    <message>
+      <source>give images, categories and annotations with keypoints</source>
+      <translation>geben Sie images, categories und annotations mit keypoints</translation>
+    </message>
+    <message>
+      <source>has no tracks or no visibility</source>
+      <translation>hat keine tracks oder keine visibility</translation>
+    </message>
+    <message>
+      <source>give CoTracker's result as npz</source>
+      <translation>geben Sie das Ergebnis von CoTracker als npz</translation>
+    </message>
+    <message>
+      <source>tracks {shape} and visibility {shape_2} do not fit</source>
+      <translation>Spuren {shape} und Sichtbarkeit {shape_2} passen nicht zusammen</translation>
+    </message>
+    <message>
+      <source>store (T, N, 2) and (T, N)</source>
+      <translation>speichern Sie (T, N, 2) und (T, N)</translation>
+    </message>
+    <message>
+      <source>does not say the image size</source>
+      <translation>sagt nicht, wie groß das Bild ist</translation>
+    </message>
+    <message>
+      <source>give --size WIDTHxHEIGHT</source>
+      <translation>geben Sie --size BREITExHÖHE</translation>
+    </message>
+    <message>
+      <source>has object or state of another shape</source>
+      <translation>hat object oder state in einer anderen Form</translation>
+    </message>
+    <message>
+      <source>holds no track of points</source>
+      <translation>enthält keine Spur von Punkten</translation>
+    </message>
+    <message>
+      <source>speaks of {total} frames</source>
+      <translation>spricht von {total} Bildern</translation>
+    </message>
+    <message>
+      <source>'{or}' is no whole number</source>
+      <translation>„{or}“ ist keine ganze Zahl</translation>
+    </message>
+    <message>
+      <source>has {parts} points in one shape of frame {value}</source>
+      <translation>hat {parts} Punkte in einer Form von Bild {value}</translation>
+    </message>
+    <message>
+      <source>give one track per point</source>
+      <translation>geben Sie je Punkt eine Spur</translation>
+    </message>
+    <message>
+      <source>'{parts}' is no place</source>
+      <translation>„{parts}“ ist kein Ort</translation>
+    </message>
+    <message>
+      <source>declares a document type, which could read other files</source>
+      <translation>gibt einen Dokumenttyp an, der andere Dateien lesen könnte</translation>
+    </message>
+    <message>
+      <source>export it from CVAT again</source>
+      <translation>exportieren Sie es noch einmal aus CVAT</translation>
+    </message>
+    <message>
+      <source>is no XML in UTF-8</source>
+      <translation>ist kein XML in UTF-8</translation>
+    </message>
+    <message>
+      <source>give CVAT's video XML 1.1</source>
+      <translation>geben Sie CVATs Video-XML 1.1</translation>
+    </message>
+    <message>
+      <source>has no rows bodyparts and coords</source>
+      <translation>hat keine Zeilen bodyparts und coords</translation>
+    </message>
+    <message>
+      <source>give DeepLabCut's csv</source>
+      <translation>geben Sie die csv-Datei von DeepLabCut</translation>
+    </message>
+    <message>
+      <source>is no csv text</source>
+      <translation>ist kein csv-Text</translation>
+    </message>
+    <message>
+      <source>'{text}' is no number</source>
+      <translation>„{text}“ ist keine Zahl</translation>
+    </message>
+    <message>
+      <source>a stored edit cannot be read</source>
+      <translation>eine gespeicherte Änderung kann nicht gelesen werden</translation>
+    </message>
+    <message>
+      <source>open a backup copy</source>
+      <translation>öffnen Sie eine Sicherungskopie</translation>
+    </message>
+    <message>
+      <source>unpacks to {declared} MiB, the limit is {value}</source>
+      <translation>wird entpackt {declared} MiB groß, die Grenze ist {value}</translation>
+    </message>
+    <message>
+      <source>track {point} is visible in frame {frame} but has no position</source>
+      <translation>Spur {point} ist in Bild {frame} sichtbar, hat aber keinen Ort</translation>
+    </message>
+    <message>
+      <source>t is {shape} and xy {shape_2}, expected (N,) and (N, 2) numbers</source>
+      <translation>t ist {shape} und xy {shape_2}, erwartet sind Zahlen (N,) und (N, 2)</translation>
+    </message>
+    <message>
+      <source>holds no query</source>
+      <translation>enthält keine Anfrage</translation>
+    </message>
+    <message>
+      <source>give at least one point</source>
+      <translation>geben Sie mindestens einen Punkt</translation>
+    </message>
+    <message>
+      <source>has a time that is no whole frame or a position that is not finite</source>
+      <translation>hat eine Zeit, die kein ganzes Bild ist, oder einen Ort, der nicht endlich ist</translation>
+    </message>
+    <message>
+      <source>xy {shape}, state {shape_2} and object {shape_3} do not belong together</source>
+      <translation>xy {shape}, state {shape_2} und object {shape_3} gehören nicht zusammen</translation>
+    </message>
+    <message>
+      <source>xyz has the shape {shape}, expected {frames}</source>
+      <translation>xyz hat die Form {shape}, erwartet ist {frames}</translation>
+    </message>
+    <message>
+      <source>state has values over 3</source>
+      <translation>state hat Werte über 3</translation>
+    </message>
+    <message>
+      <source>the image size is {size}</source>
+      <translation>die Bildgröße ist {size}</translation>
+    </message>
+    <message>
+      <source>track {point} is visible in frame {frame} but has no finite position</source>
+      <translation>Spur {point} ist in Bild {frame} sichtbar, hat aber keinen endlichen Ort</translation>
+    </message>
+    <message>
+      <source>tracks {shape} and visible {shape_2} do not belong together</source>
+      <translation>Spuren {shape} und visible {shape_2} gehören nicht zusammen</translation>
+    </message>
+    <message>
+      <source>does not say the image size its pixels belong to</source>
+      <translation>sagt nicht, zu welcher Bildgröße die Pixel gehören</translation>
+    </message>
+    <message>
+      <source>add size = (width, height)</source>
+      <translation>fügen Sie size = (Breite, Höhe) hinzu</translation>
+    </message>
+    <message>
+      <source>has no {absent} (it has {nothing})</source>
+      <translation>hat kein {absent} (vorhanden: {nothing})</translation>
+    </message>
+    <message>
+      <source>{key} holds {dtype}, expected numbers</source>
+      <translation>{key} enthält {dtype}, erwartet sind Zahlen</translation>
+    </message>
+    <message>
+      <source>size has {size} numbers, expected width and height</source>
+      <translation>size hat {size} Zahlen, erwartet sind Breite und Höhe</translation>
+    </message>
+    <message>
+      <source>holds no Gaussians</source>
+      <translation>enthält keine Gaussians</translation>
+    </message>
+    <message>
+      <source>take a file written by optimize</source>
+      <translation>nehmen Sie eine Datei, die optimize geschrieben hat</translation>
+    </message>
+    <message>
+      <source>there is no object {strange}</source>
+      <translation>es gibt kein Objekt {strange}</translation>
+    </message>
+    <message>
+      <source>choose from {ids}</source>
+      <translation>wählen Sie aus {ids}</translation>
+    </message>
+    <message>
+      <source>give a folder</source>
+      <translation>geben Sie einen Ordner</translation>
+    </message>
+    <message>
+      <source>is no PLY file</source>
+      <translation>ist keine PLY-Datei</translation>
+    </message>
+    <message>
+      <source>ends before its {count} splats do</source>
+      <translation>endet, bevor seine {count} Splats es tun</translation>
+    </message>
+    <message>
+      <source>copy it again</source>
+      <translation>kopieren Sie es noch einmal</translation>
+    </message>
+    <message>
+      <source>has no column {missing}, so it holds no Gaussian splats</source>
+      <translation>hat keine Spalte {missing}, enthält also keine Gaussian-Splats</translation>
+    </message>
+    <message>
+      <source>names no vertices</source>
+      <translation>nennt keine Ecken</translation>
+    </message>
+    <message>
+      <source>holds {count} splats, allowed are {value}</source>
+      <translation>enthält {count} Splats, erlaubt sind {value}</translation>
+    </message>
+    <message>
+      <source>thin it out first</source>
+      <translation>dünnen Sie es erst aus</translation>
+    </message>
+    <message>
+      <source>has {name} that are not finite</source>
+      <translation>hat {name}, die nicht endlich sind</translation>
+    </message>
+    <message>
+      <source>holds more than {value} splats</source>
+      <translation>enthält mehr als {value} Splats</translation>
+    </message>
+    <message>
+      <source>cannot be read ({lower})</source>
+      <translation>kann nicht gelesen werden ({lower})</translation>
+    </message>
+    <message>
+      <source>is no binary little-endian PLY</source>
+      <translation>ist kein binäres PLY in Little-Endian</translation>
+    </message>
+    <message>
+      <source>save it again in that form</source>
+      <translation>speichern Sie es noch einmal in dieser Form</translation>
+    </message>
+    <message>
+      <source>begins with the element '{element}', expected vertex</source>
+      <translation>beginnt mit dem Element „{element}“, erwartet ist vertex</translation>
+    </message>
+    <message>
+      <source>has the column '{words}', which cannot be read</source>
+      <translation>hat die Spalte „{words}“, die nicht gelesen werden kann</translation>
+    </message>
+    <message>
+      <source>holds no PLY file</source>
+      <translation>enthält keine PLY-Datei</translation>
+    </message>
+    <message>
+      <source>give a PLY file or a folder of them</source>
+      <translation>geben Sie eine PLY-Datei oder einen Ordner mit solchen</translation>
+    </message>
+    <message>
+      <source>has frames of {counts} to {counts_2} splats</source>
+      <translation>hat Bilder von {counts} bis {counts_2} Splats</translation>
+    </message>
+    <message>
+      <source>give files with equally many splats</source>
+      <translation>geben Sie Dateien mit gleich vielen Splats</translation>
+    </message>
+    <message>
+      <source>exists already</source>
+      <translation>gibt es schon</translation>
+    </message>
+    <message>
+      <source>open it, or choose another name</source>
+      <translation>öffnen Sie es, oder wählen Sie einen anderen Namen</translation>
+    </message>
+    <message>
+      <source>belongs to a clip of {frames} frames of {size}, not {frames_2} of {size_2}</source>
+      <translation>gehört zu einem Clip von {frames} Bildern der Größe {size}, nicht {frames_2} der Größe {size_2}</translation>
+    </message>
+    <message>
+      <source>choose another file</source>
+      <translation>wählen Sie eine andere Datei</translation>
+    </message>
+    <message>
+      <source>there is no edit {seq}</source>
+      <translation>es gibt keine Änderung {seq}</translation>
+    </message>
+    <message>
+      <source>is open in another program</source>
+      <translation>ist in einem anderen Programm geöffnet</translation>
+    </message>
+    <message>
+      <source>close it there, or save a copy</source>
+      <translation>schließen Sie es dort, oder speichern Sie eine Kopie</translation>
+    </message>
+    <message>
+      <source>is no GenMOJO project</source>
+      <translation>ist kein Projekt von GenMOJO</translation>
+    </message>
+    <message>
+      <source>give a file written by the annotator</source>
+      <translation>geben Sie eine Datei, die das Annotieren geschrieben hat</translation>
+    </message>
+    <message>
+      <source>is of version {version}, this program knows up to {value}</source>
+      <translation>hat Version {version}, dieses Programm kennt bis zu {value}</translation>
+    </message>
+    <message>
+      <source>open it with a newer version</source>
+      <translation>öffnen Sie es mit einer neueren Version</translation>
+    </message>
+    <message>
+      <source>is no project file or cannot be opened ({error})</source>
+      <translation>ist keine Projektdatei oder kann nicht geöffnet werden ({error})</translation>
+    </message>
+    <message>
+      <source>cannot be opened ({error})</source>
+      <translation>kann nicht geöffnet werden ({error})</translation>
+    </message>
+    <message>
+      <source>check the permissions</source>
+      <translation>prüfen Sie die Rechte</translation>
+    </message>
+    <message>
+      <source>is no project file or is damaged</source>
+      <translation>ist keine Projektdatei oder ist beschädigt</translation>
+    </message>
+    <message>
+      <source>cannot be saved ({error})</source>
+      <translation>kann nicht gespeichert werden ({error})</translation>
+    </message>
+    <message>
+      <source>free some space or save a copy elsewhere</source>
+      <translation>schaffen Sie Platz, oder speichern Sie eine Kopie anderswo</translation>
+    </message>
+    <message>
+      <source>lacks rows of its history</source>
+      <translation>es fehlen Zeilen seiner Geschichte</translation>
+    </message>
+    <message>
+      <source>has no edit {seq}</source>
+      <translation>hat keine Änderung {seq}</translation>
+    </message>
+    <message>
+      <source>holds a history that does not fit together</source>
+      <translation>enthält eine Geschichte, die nicht zusammenpasst</translation>
+    </message>
+    <message>
+      <source>cannot be copied ({error})</source>
+      <translation>kann nicht kopiert werden ({error})</translation>
+    </message>
+    <message>
+      <source>free some space</source>
+      <translation>schaffen Sie Platz</translation>
+    </message>
+    <message>
+      <source>is truncated or damaged</source>
+      <translation>ist abgeschnitten oder beschädigt</translation>
+    </message>
+    <message>
+      <source>copy or make the file again</source>
+      <translation>kopieren oder erzeugen Sie die Datei noch einmal</translation>
+    </message>
+    <message>
+      <source>is longer than {value} MiB</source>
+      <translation>ist länger als {value} MiB</translation>
+    </message>
+    <message>
+      <source>is a folder, not a file</source>
+      <translation>ist ein Ordner, keine Datei</translation>
+    </message>
+    <message>
+      <source>is empty (0 bytes)</source>
+      <translation>ist leer (0 Bytes)</translation>
+    </message>
+    <message>
+      <source>make the file again</source>
+      <translation>erzeugen Sie die Datei noch einmal</translation>
+    </message>
+    <message>
+      <source>is not an HDF5 file</source>
+      <translation>ist keine HDF5-Datei</translation>
+    </message>
+    <message>
+      <source>give a scene written by genmojo optimize</source>
+      <translation>geben Sie eine Szene, die genmojo optimize geschrieben hat</translation>
+    </message>
+    <message>
+      <source>another program is writing it or died while writing</source>
+      <translation>ein anderes Programm schreibt es gerade oder endete beim Schreiben</translation>
+    </message>
+    <message>
+      <source>close that program or make the file again</source>
+      <translation>beenden Sie jenes Programm, oder erzeugen Sie die Datei noch einmal</translation>
+    </message>
+    <message>
+      <source>is a virtual dataset (its values lie in other files)</source>
+      <translation>ist ein virtueller Datensatz (seine Werte liegen in anderen Dateien)</translation>
+    </message>
+    <message>
+      <source>keeps its values in another file</source>
+      <translation>hält seine Werte in einer anderen Datei</translation>
+    </message>
+    <message>
+      <source>declares {size:.1f} GiB, the limit is {value}</source>
+      <translation>gibt {size:.1f} GiB an, die Grenze ist {value}</translation>
+    </message>
+    <message>
+      <source>has chunks of {chunk} MiB</source>
+      <translation>hat Stücke von {chunk} MiB</translation>
+    </message>
+    <message>
+      <source>would expand {value} times and more to {size} MiB</source>
+      <translation>würde sich {value}-mal und mehr auf {size} MiB ausdehnen</translation>
+    </message>
+    <message>
+      <source>groups are nested deeper than {value}</source>
+      <translation>Gruppen sind tiefer als {value} verschachtelt</translation>
+    </message>
+    <message>
+      <source>holds more than {value} objects</source>
+      <translation>enthält mehr als {value} Objekte</translation>
+    </message>
+    <message>
+      <source>declares {total:.0f} GiB of data</source>
+      <translation>gibt {total:.0f} GiB Daten an</translation>
+    </message>
+    <message>
+      <source>a checksum does not match or data is missing</source>
+      <translation>eine Prüfsumme stimmt nicht, oder Daten fehlen</translation>
+    </message>
+    <message>
+      <source>is not valid JSON ({error})</source>
+      <translation>ist kein gültiges JSON ({error})</translation>
+    </message>
+    <message>
+      <source>uses the unknown HDF5 filter {code}</source>
+      <translation>benutzt den unbekannten HDF5-Filter {code}</translation>
+    </message>
+    <message>
+      <source>use gzip</source>
+      <translation>benutzen Sie gzip</translation>
+    </message>
+    <message>
+      <source>its structure is damaged</source>
+      <translation>der Aufbau ist beschädigt</translation>
+    </message>
+    <message>
+      <source>is a link to elsewhere and is not followed</source>
+      <translation>ist ein Verweis nach anderswo und wird nicht verfolgt</translation>
+    </message>
+    <message>
+      <source>store the data</source>
+      <translation>speichern Sie die Daten</translation>
+    </message>
+    <message>
+      <source>is a second name of another object</source>
+      <translation>ist ein zweiter Name eines anderen Objekts</translation>
+    </message>
+    <message>
+      <source>store the data once</source>
+      <translation>speichern Sie die Daten einmal</translation>
+    </message>
+    <message>
+      <source>the attribute dilation_px2 is {dilation:g}</source>
+      <translation>das Attribut dilation_px2 ist {dilation:g}</translation>
+    </message>
+    <message>
+      <source>the attribute up is no unit vector</source>
+      <translation>das Attribut up ist kein Einheitsvektor</translation>
+    </message>
+    <message>
+      <source>is no JSON {name}</source>
+      <translation>ist kein JSON {name}</translation>
+    </message>
+    <message>
+      <source>this scene cannot be saved: {faults}</source>
+      <translation>diese Szene kann nicht gespeichert werden: {faults}</translation>
+    </message>
+    <message>
+      <source>see genmojo validate</source>
+      <translation>siehe genmojo validate</translation>
+    </message>
+    <message>
+      <source>is an HDF5 file but no genmojo4d scene</source>
+      <translation>ist eine HDF5-Datei, aber keine Szene von genmojo4d</translation>
+    </message>
+    <message>
+      <source>has format version '{version}', this program reads {scene_layout}</source>
+      <translation>hat Formatversion „{version}“, dieses Programm liest {scene_layout}</translation>
+    </message>
+    <message>
+      <source>update the program</source>
+      <translation>aktualisieren Sie das Programm</translation>
+    </message>
+    <message>
+      <source>was not finished by the program that wrote it</source>
+      <translation>wurde von dem Programm, das es schrieb, nicht beendet</translation>
+    </message>
+    <message>
+      <source>make it again</source>
+      <translation>erzeugen Sie es noch einmal</translation>
+    </message>
+    <message>
+      <source>its attributes are damaged</source>
+      <translation>seine Attribute sind beschädigt</translation>
+    </message>
+    <message>
+      <source>tracks have the shape {shape}, expected (tracks, 2, nodes, frames)</source>
+      <translation>Spuren haben die Form {shape}, erwartet ist (Spuren, 2, Knoten, Bilder)</translation>
+    </message>
+    <message>
+      <source>names {names} tracks and {nodes} nodes for {owners} and {points}</source>
+      <translation>nennt {names} Spuren und {nodes} Knoten für {owners} und {points}</translation>
+    </message>
+    <message>
+      <source>give a SLEAP analysis file</source>
+      <translation>geben Sie eine Analysedatei von SLEAP</translation>
+    </message>
+    <message>
+      <source>a visible point has no position</source>
+      <translation>ein sichtbarer Punkt hat keinen Ort</translation>
+    </message>
+    <message>
+      <source>has no points or no occluded</source>
+      <translation>hat keine points oder kein occluded</translation>
+    </message>
+    <message>
+      <source>give a TAP-Vid npz</source>
+      <translation>geben Sie ein npz von TAP-Vid</translation>
+    </message>
+    <message>
+      <source>points {shape} and occluded {shape_2} do not fit</source>
+      <translation>Punkte {shape} und occluded {shape_2} passen nicht zusammen</translation>
+    </message>
+    <message>
+      <source>is a pickle, which can run code when it is opened</source>
+      <translation>ist ein Pickle, das beim Öffnen Code ausführen kann</translation>
+    </message>
+    <message>
+      <source>agree to open it in a closed process (--allow-pickle), or give npz</source>
+      <translation>stimmen Sie dem Öffnen in einem abgeschlossenen Prozess zu (--allow-pickle), oder geben Sie npz</translation>
+    </message>
+    <message>
+      <source>is larger than {value} GiB</source>
+      <translation>ist größer als {value} GiB</translation>
+    </message>
+    <message>
+      <source>do not trust this file</source>
+      <translation>vertrauen Sie dieser Datei nicht</translation>
+    </message>
+    <message>
+      <source>holds no video '{video}'</source>
+      <translation>enthält kein Video „{video}“</translation>
+    </message>
+    <message>
+      <source>holds no video</source>
+      <translation>enthält kein Video</translation>
+    </message>
+    <message>
+      <source>it has {none}</source>
+      <translation>es gibt {none}</translation>
+    </message>
+    <message>
+      <source>takes more than {value} s to open</source>
+      <translation>braucht mehr als {value} s zum Öffnen</translation>
+    </message>
+    <message>
+      <source>has no consent to export times of people</source>
+      <translation>hat keine Einwilligung, Arbeitszeiten von Menschen zu exportieren</translation>
+    </message>
+    <message>
+      <source>ask them and set the consent flag</source>
+      <translation>fragen Sie sie, und setzen Sie die Einwilligung</translation>
+    </message>
+    <message>
+      <source>holds no tracks</source>
+      <translation>enthält keine Spuren</translation>
+    </message>
+    <message>
+      <source>give a file with tracks</source>
+      <translation>geben Sie eine Datei mit Spuren</translation>
+    </message>
+    <message>
+      <source>gave tracks {shape} for {shape_2}</source>
+      <translation>ergab Spuren {shape} für {shape_2}</translation>
+    </message>
+    <message>
+      <source>would download and run code by torch.hub</source>
+      <translation>würde über torch.hub Code herunterladen und ausführen</translation>
+    </message>
+    <message>
+      <source>agree first, or give a local checkout</source>
+      <translation>stimmen Sie erst zu, oder geben Sie eine lokale Kopie</translation>
+    </message>
+    <message>
+      <source>holds no cotracker/predictor.py</source>
+      <translation>enthält kein cotracker/predictor.py</translation>
+    </message>
+    <message>
+      <source>give a checkout of CoTracker</source>
+      <translation>geben Sie den Quelltext von CoTracker</translation>
+    </message>
+    <message>
+      <source>CoTracker stopped: {last}</source>
+      <translation>CoTracker hielt an: {last}</translation>
+    </message>
+    <message>
+      <source>check checkout, checkpoint and memory</source>
+      <translation>prüfen Sie Quelltext, Gewichte und Speicher</translation>
+    </message>
+    <message>
+      <source>was stopped before it was done</source>
+      <translation>wurde angehalten, bevor es fertig war</translation>
+    </message>
+    <message>
+      <source>is no checkpoint</source>
+      <translation>ist kein Checkpoint</translation>
+    </message>
+    <message>
+      <source>give CoTracker's weights (.pth)</source>
+      <translation>geben Sie die Gewichte von CoTracker (.pth)</translation>
+    </message>
+    <message>
+      <source>has no masks, and points are tracked inside them</source>
+      <translation>hat keine Masken, und Punkte werden in ihnen verfolgt</translation>
+    </message>
+    <message>
+      <source>give masks or boxes</source>
+      <translation>geben Sie Masken oder Kästen</translation>
+    </message>
+    <message>
+      <source>a query is outside frames 0 to {clip}</source>
+      <translation>eine Anfrage liegt außerhalb der Bilder 0 bis {clip}</translation>
+    </message>
+    <message>
+      <source>a query names an object outside 0 to {objects}</source>
+      <translation>eine Anfrage nennt ein Objekt außerhalb von 0 bis {objects}</translation>
+    </message>
+    <message>
+      <source>holds no Gaussians to track with</source>
+      <translation>enthält keine Gaussians, mit denen verfolgt werden könnte</translation>
+    </message>
+    <message>
+      <source>there is no query</source>
+      <translation>es gibt keine Anfrage</translation>
+    </message>
+    <message>
+      <source>give t (N,) and xy (N, 2)</source>
+      <translation>geben Sie t (N,) und xy (N, 2)</translation>
+    </message>
+    <message>
+      <source>asks at frame {scene}, the scene has frames 0 to {scene_2}</source>
+      <translation>fragt bei Bild {scene}, die Szene hat die Bilder 0 bis {scene_2}</translation>
+    </message>
+    <message>
+      <source>asks at {tolist}, outside the {size} x {size_2} picture</source>
+      <translation>fragt bei {tolist}, außerhalb des Bildes von {size} x {size_2}</translation>
+    </message>
+    <message>
+      <source>give raster pixels of the clip</source>
+      <translation>geben Sie Rasterpixel des Clips</translation>
+    </message>
+    <message>
+      <source>there is no tracker '{name}'</source>
+      <translation>es gibt keinen Verfolger „{name}“</translation>
+    </message>
+    <message>
+      <source>'{name}' needs a path</source>
+      <translation>„{name}“ braucht einen Pfad</translation>
+    </message>
+    <message>
+      <source>write {name}:PATH</source>
+      <translation>schreiben Sie {name}:PFAD</translation>
+    </message>
+    <message>
+      <source>a query asks at frame {value}, the clip has 0 to {frames}</source>
+      <translation>eine Anfrage fragt bei Bild {value}, der Clip hat 0 bis {frames}</translation>
+    </message>
+    <message>
+      <source>has {scene} frames, the clip {clip}</source>
+      <translation>hat {scene} Bilder, der Clip {clip}</translation>
+    </message>
+    <message>
+      <source>optimise this clip first</source>
+      <translation>optimieren Sie erst diesen Clip</translation>
+    </message>
+    <message>
+      <source>has {shape} frames, the clip {clip}</source>
+      <translation>hat {shape} Bilder, der Clip {clip}</translation>
+    </message>
+    <message>
+      <source>has no object {object_id} to track</source>
+      <translation>hat kein Objekt {object_id} zum Verfolgen</translation>
+    </message>
+    <message>
+      <source>was cancelled</source>
+      <translation>wurde abgebrochen</translation>
+    </message>
+    <message>
+      <source>{frames} frames of {size} are compared with {frames_2} of {size_2}</source>
+      <translation>{frames} Bilder der Größe {size} werden mit {frames_2} der Größe {size_2} verglichen</translation>
+    </message>
+    <message>
+      <source>give the same clip</source>
+      <translation>geben Sie denselben Clip</translation>
+    </message>
+    <message>
+      <source>has no point in common with the first</source>
+      <translation>hat keinen Punkt mit dem ersten gemeinsam</translation>
+    </message>
+    <message>
+      <source>{frames} frames of {size} x {size_2} pixels cannot be annotated</source>
+      <translation>{frames} Bilder von {size} x {size_2} Pixeln können nicht annotiert werden</translation>
+    </message>
+    <message>
+      <source>there is no track {track}</source>
+      <translation>es gibt keine Spur {track}</translation>
+    </message>
+    <message>
+      <source>there is no object {object_id}</source>
+      <translation>es gibt kein Objekt {object_id}</translation>
+    </message>
+    <message>
+      <source>object {object_id} already has a point {number}</source>
+      <translation>Objekt {object_id} hat schon einen Punkt {number}</translation>
+    </message>
+    <message>
+      <source>'{reason}' is no reason</source>
+      <translation>„{reason}“ ist kein Grund</translation>
+    </message>
+    <message>
+      <source>track {track} says nothing about frame {blank} and {blank_2} others</source>
+      <translation>Spur {track} sagt nichts über Bild {blank} und {blank_2} weitere</translation>
+    </message>
+    <message>
+      <source>annotate them first</source>
+      <translation>annotieren Sie sie erst</translation>
+    </message>
+    <message>
+      <source>track {track} has nothing from frame {value} on</source>
+      <translation>Spur {track} hat von Bild {value} an nichts</translation>
+    </message>
+    <message>
+      <source>frames {first} to {last} are not in 0 to {frames}</source>
+      <translation>die Bilder {first} bis {last} liegen nicht in 0 bis {frames}</translation>
+    </message>
+    <message>
+      <source>track {track} is locked</source>
+      <translation>Spur {track} ist gesperrt</translation>
+    </message>
+    <message>
+      <source>unlock it first</source>
+      <translation>entsperren Sie sie erst</translation>
+    </message>
+    <message>
+      <source>the place {xy} of a key is not finite</source>
+      <translation>der Ort {xy} eines Schlüssels ist nicht endlich</translation>
+    </message>
+    <message>
+      <source>{track} has no key in frame {value}</source>
+      <translation>{track} hat keinen Schlüssel in Bild {value}</translation>
+    </message>
+    <message>
+      <source>there is no state {state}</source>
+      <translation>es gibt keinen Zustand {state}</translation>
+    </message>
+    <message>
+      <source>{track} has no key before frame {value}</source>
+      <translation>{track} hat keinen Schlüssel vor Bild {value}</translation>
+    </message>
+    <message>
+      <source>{track} is locked</source>
+      <translation>{track} ist gesperrt</translation>
+    </message>
+    <message>
+      <source>{shape} tracks over {shape_2} frames are compared with {shape_3} over {shape_4}</source>
+      <translation>{shape} Spuren über {shape_2} Bilder werden mit {shape_3} über {shape_4} verglichen</translation>
+    </message>
+    <message>
+      <source>the truth holds no position</source>
+      <translation>die Wahrheit enthält keinen Ort</translation>
+    </message>
+    <message>
+      <source>no point has a position in space</source>
+      <translation>kein Punkt hat einen Ort im Raum</translation>
+    </message>
+    <message>
+      <source>a mask of {mask} frames does not fit a clip of {clip}</source>
+      <translation>eine Maske von {mask} Bildern passt nicht zu einem Clip von {clip}</translation>
+    </message>
+    <message>
+      <source>open the clip that it was drawn on</source>
+      <translation>öffnen Sie den Clip, auf dem sie gezeichnet wurde</translation>
+    </message>
+    <message>
+      <source>lacks the mask of edit {number}</source>
+      <translation>die Maske der Änderung {number} fehlt</translation>
+    </message>
+    <message>
+      <source>has {shape} frames, the clip has {frames}</source>
+      <translation>hat {shape} Bilder, der Clip hat {frames}</translation>
+    </message>
+    <message>
+      <source>is no export this program knows</source>
+      <translation>ist kein Export, den dieses Programm kennt</translation>
+    </message>
+    <message>
+      <source>'{name}' is no kind of file that the app opens</source>
+      <translation>„{name}“ ist keine Art von Datei, die die App öffnet</translation>
+    </message>
+    <message>
+      <source>open a clip folder, a video, a scene (.h5), a project (.genmojo) or a .ply</source>
+      <translation>öffnen Sie einen Clip-Ordner, ein Video, eine Szene (.h5), ein Projekt (.genmojo) oder eine .ply-Datei</translation>
+    </message>
+    <message>
+      <source>a picture of {width} x {height} pixels is more than the processor draws</source>
+      <translation>ein Bild von {width} x {height} Pixeln ist mehr, als der Prozessor zeichnet</translation>
+    </message>
+    <message>
+      <source>choose a smaller size</source>
+      <translation>wählen Sie eine kleinere Größe</translation>
+    </message>
+    <message>
+      <source>is no view</source>
+      <translation>ist keine Ansicht</translation>
+    </message>
+    <message>
+      <source>write for example: elevation 30 azimuth -15</source>
+      <translation>schreiben Sie zum Beispiel: elevation 30 azimuth -15</translation>
+    </message>
+    <message>
+      <source>this pose cannot be reached from the input camera by elevation, azimuth and roll</source>
+      <translation>diese Pose lässt sich von der Eingangskamera aus mit Höhe, Azimut und Rollen nicht erreichen</translation>
+    </message>
+    <message>
+      <source>the processor draws instead</source>
+      <translation>stattdessen zeichnet der Prozessor</translation>
+    </message>
+    <message>
+      <source>{snapshot} Gaussians are more than this driver can hold</source>
+      <translation>{snapshot} Gaussians sind mehr, als dieser Treiber fasst</translation>
+    </message>
+    <message>
+      <source>a picture of {size} x {size_2} pixels is more than this driver draws</source>
+      <translation>ein Bild von {size} x {size_2} Pixeln ist mehr, als dieser Treiber zeichnet</translation>
+    </message>
+    <message>
+      <source>there is no scene</source>
+      <translation>es gibt keine Szene</translation>
+    </message>
+    <message>
+      <source>open a scene or start a run</source>
+      <translation>öffnen Sie eine Szene oder starten Sie einen Lauf</translation>
+    </message>
+    <message>
+      <source>there is no Gaussian {row}</source>
+      <translation>es gibt kein Gaussian {row}</translation>
+    </message>
+    <message>
+      <source>{name} has shape {shape}, expected {wanted}</source>
+      <translation>{name} hat die Form {shape}, erwartet ist {wanted}</translation>
+    </message>
+    <message>
+      <source>OpenGL is not ready</source>
+      <translation>OpenGL ist nicht bereit</translation>
+    </message>
+    <message>
+      <source>show the view first</source>
+      <translation>zeigen Sie die Ansicht erst</translation>
+    </message>
+    <message>
+      <source>holds neither a scene nor a checkpoint</source>
+      <translation>enthält weder eine Szene noch einen Prüfpunkt</translation>
+    </message>
+    <message>
+      <source>start the run anew</source>
+      <translation>starten Sie den Lauf neu</translation>
+    </message>
+    <message>
+      <source>the run ended before its scene was written</source>
+      <translation>der Lauf endete, bevor seine Szene geschrieben war</translation>
+    </message>
+    <message>
+      <source>resume the run and try again</source>
+      <translation>setzen Sie den Lauf fort und versuchen Sie es noch einmal</translation>
+    </message>
+    <message>
+      <source>holds no tracks, and there are none to carry through it</source>
+      <translation>enthält keine Spuren, und es gibt keine, die hindurchgeführt werden könnten</translation>
+    </message>
+    <message>
+      <source>import tracks first</source>
+      <translation>importieren Sie erst Spuren</translation>
+    </message>
+    <message>
+      <source>another worker is optimising in this folder</source>
+      <translation>ein anderer Prozess optimiert in diesem Ordner</translation>
+    </message>
+    <message>
+      <source>attach to it</source>
+      <translation>verbinden Sie sich mit ihm</translation>
+    </message>
+    <message>
+      <source>no optimiser is at work in this folder</source>
+      <translation>in diesem Ordner arbeitet kein Optimierer</translation>
+    </message>
+    <message>
+      <source>open its scene or resume</source>
+      <translation>öffnen Sie seine Szene, oder setzen Sie den Lauf fort</translation>
+    </message>
+    <message>
+      <source>a run is going on here</source>
+      <translation>hier ist ein Lauf im Gang</translation>
+    </message>
+    <message>
+      <source>stop it or detach first</source>
+      <translation>halten Sie ihn an, oder trennen Sie sich erst von ihm</translation>
+    </message>
+    <message>
+      <source>a preview of {total} bytes does not fit {capacity}</source>
+      <translation>eine Vorschau von {total} Bytes passt nicht in {capacity}</translation>
+    </message>
+    <message>
+      <source>is no preview bus</source>
+      <translation>ist kein Kanal für Vorschauen</translation>
+    </message>
+    <message>
+      <source>{name} of type {dtype} cannot be a preview</source>
+      <translation>{name} vom Typ {dtype} kann keine Vorschau sein</translation>
+    </message>
+    <message>
+      <source>holds a preview of another program version</source>
+      <translation>enthält eine Vorschau einer anderen Programmversion</translation>
+    </message>
+    <message>
+      <source>cannot be opened</source>
+      <translation>kann nicht geöffnet werden</translation>
+    </message>
+    <message>
+      <source>a message of {body} bytes is too long</source>
+      <translation>eine Nachricht von {body} Bytes ist zu lang</translation>
+    </message>
+    <message>
+      <source>sent a message without a type</source>
+      <translation>sandte eine Nachricht ohne Art</translation>
+    </message>
+    <message>
+      <source>sent something that is no JSON</source>
+      <translation>sandte etwas, das kein JSON ist</translation>
+    </message>
+    <message>
+      <source>is no request for a run</source>
+      <translation>ist keine Anforderung eines Laufs</translation>
+    </message>
+    <message>
+      <source>start the run again</source>
+      <translation>starten Sie den Lauf noch einmal</translation>
+    </message>
+    <message>
+      <source>sent something that is no message</source>
+      <translation>sandte etwas, das keine Nachricht ist</translation>
+    </message>
+    <message>
+      <source>cannot be made ({lower})</source>
+      <translation>kann nicht angelegt werden ({lower})</translation>
+    </message>
+    <message>
+      <source>set GENMOJO_RUNS to a folder with room</source>
+      <translation>setzen Sie GENMOJO_RUNS auf einen Ordner mit Platz</translation>
+    </message>
+    <message>
+      <source>attach to it or choose another folder</source>
+      <translation>verbinden Sie sich mit ihm, oder wählen Sie einen anderen Ordner</translation>
+    </message>
+    <message>
+      <source>{value} are no steps</source>
+      <translation>{value} sind keine Schritte</translation>
+    </message>
+    <message>
+      <source>the run has not begun</source>
+      <translation>der Lauf hat noch nicht begonnen</translation>
+    </message>
+    <message>
+      <source>wait for the first scene</source>
+      <translation>warten Sie auf die erste Szene</translation>
+    </message>
+    <message>
+      <source>there is nothing to keep yet</source>
+      <translation>es gibt noch nichts zu behalten</translation>
+    </message>
+    <message>
+      <source>wait for the first step</source>
+      <translation>warten Sie auf den ersten Schritt</translation>
+    </message>
+    <message>
+      <source>wait for the first preview</source>
+      <translation>warten Sie auf die erste Vorschau</translation>
     </message>
   </context>
 </TS>
