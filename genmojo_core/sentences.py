@@ -128,6 +128,8 @@ SENTENCES: dict[str, str] = {
     "doubt_keys": "far from any key",
 }
 
+PARTS = ("point_of", "object_number", "frame", "frames")  # values of other sentences, which go before them
+
 
 def say(key: str, **values: object) -> str:
     """The English words of a sentence. Raises KeyError for an unknown key or a missing value."""
@@ -168,10 +170,12 @@ def origin(words: str, more: tuple[str, ...] = ()) -> tuple[str, dict[str, str]]
 def _patterns(more: tuple[str, ...]) -> list[tuple[str, re.Pattern[str]]]:
     """Every sentence with an expression that finds its values; those with most words of their own first."""
     made = []
+    parts_of_others = [SENTENCES[key] for key in PARTS]
     for template in (*SENTENCES.values(), *more):
         parts = list(Formatter().parse(template))
         pattern = "".join(re.escape(own) + (f"(?P<{name}>.+?)" if name else "") for own, name, _, _ in parts)
-        made.append((sum(len(own) for own, *_ in parts), template, re.compile(pattern, re.DOTALL)))
+        own_words = 0 if template in parts_of_others else sum(len(own) for own, *_ in parts)
+        made.append((own_words, template, re.compile(pattern, re.DOTALL)))
     return [(template, pattern) for _, template, pattern in sorted(made, key=lambda one: -one[0])]
 
 

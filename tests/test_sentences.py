@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from genmojo_core.sentences import SENTENCES, say, translated
+from genmojo_core.sentences import SENTENCES, origin, say, translated
 
 TRANSLATIONS = Path(__file__).resolve().parents[1] / "resources" / "translations"
 NAMES = st.text(st.characters(categories=("L", "N", "P", "Zs")), min_size=1, max_size=20)
@@ -50,6 +50,14 @@ def test_values_move_and_sentences_inside_are_translated_too() -> None:
     assert translated(words, german.__getitem__) == "aus Bodenkontakt kommt die Tiefe"
     words = say("prior_off", name="the {red} ball", reason="too small")
     assert translated(words, german.__getitem__) == "too small: kein Prior für the {red} ball"
+
+
+@pytest.mark.parametrize("key", [key for key, text in SENTENCES.items() if "{point}" in text])
+def test_a_point_inside_a_sentence_is_not_taken_for_the_sentence(key: str) -> None:
+    point = say("point_of", number=3, name="the car, frame 2")
+    words = say(key, point=point, frames=say("frames", first=2, last=5))
+    template, values = origin(words)
+    assert template == SENTENCES[key] and values["point"] == point
 
 
 def test_words_of_nobody_come_back_as_they_are() -> None:
