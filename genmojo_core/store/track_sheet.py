@@ -38,8 +38,8 @@ class TrackSheet:
 
     @staticmethod
     def of_annotation(annotation: Annotation, frame_names: tuple[str, ...] = ()) -> TrackSheet:
-        """All tracks of an annotation, by object and number."""
-        infos = sorted(annotation.tracks.values(), key=lambda i: (i.object, i.number, i.id))
+        """The active tracks of an annotation, by object and number."""
+        infos = sorted(annotation.active(), key=lambda i: (i.object, i.number, i.id))
         tracks = annotation.to_tracks([i.id for i in infos])
         names = {o.id: o.name for o in annotation.objects.values()}
         return TrackSheet(tracks, np.array([i.number for i in infos], np.int64), names, frame_names)
