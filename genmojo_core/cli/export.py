@@ -43,6 +43,8 @@ def add_commands(commands: Any) -> None:
     export.add_argument("--frames", type=frame_range, metavar="A:B", help="positions in the scene, default all")
     export.add_argument("--objects", type=names, default=(), metavar="1,2", help="mask ids, 0 = background")
     export.add_argument("--extra", action="store_true", help="PLY: also write columns of ours (object_id)")
+    export.add_argument("--review", choices=("not-rejected", "all", "approved"), default="not-rejected",
+                        help="tracks of a project, by their review (default not-rejected)")  # fmt: skip
     export.set_defaults(run=run_export)
     importer = commands.add_parser("import", help="files of other programs as a scene or tracks")
     importer.add_argument("file", metavar="FILE|DIR")

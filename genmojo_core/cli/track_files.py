@@ -15,7 +15,7 @@ from genmojo_core.cli.output import progress, say
 from genmojo_core.errors import GenmojoError
 
 if TYPE_CHECKING:
-    from genmojo_core.store.track_sheet import TrackSheet
+    from genmojo_core.store.track_sheet import TrackSheet, Which
 
 Tell = Callable[[float], None]
 
@@ -59,11 +59,11 @@ def run_seed(args: argparse.Namespace) -> dict[str, Any]:
             "visible_share": float(tracks.visible.mean())}  # fmt: skip
 
 
-def read_sheet(path: str | Path) -> TrackSheet:
-    """The tracks of a project, of a scene file or of an npz in our, TAP-Vid's or CoTracker's layout."""
-    from genmojo_core.store import project_file, tracks_hdf5
+def read_sheet(path: str | Path, which: Which = "all") -> TrackSheet:
+    """The tracks of a project (those or all), of a scene file or of an npz in our, TAP-Vid's or CoTracker's layout."""
+    from genmojo_core.clip.frames import frame_names
+    from genmojo_core.store import project_file, track_npz, tracks_hdf5
     from genmojo_core.store.track_sheet import TrackSheet
-    from genmojo_core.trackers.seeding import read_any
 
     file = Path(path)
     if not file.is_file():
@@ -72,41 +72,43 @@ def read_sheet(path: str | Path) -> TrackSheet:
         head = stream.read(16)
     if head.startswith(b"SQLite format 3"):
         loaded = project_file.load(file)
-        return TrackSheet.of_annotation(loaded.annotation)
+        names = frame_names(loaded.info.path)
+        names = names if len(names) == loaded.annotation.frames else ()
+        return TrackSheet.of_annotation(loaded.annotation, names, loaded.info.seconds, which)
     if head.startswith(b"\x89HDF"):
         return tracks_hdf5.read(file)
     if not head.startswith(b"PK"):
         raise GenmojoError("format", "holds no tracks we know", str(path), "give a project, a scene or an npz")
-    return TrackSheet.of_tracks(read_any(file, (0, 0)))
+    return track_npz.read(file)
 
 
 def _owners(points: str, clip: Any, t: np.ndarray, xy: np.ndarray) -> np.ndarray:  # (N,) mask ids
     """Whose each query is: as its file says, else the object whose mask covers it, or the nearest to it."""
     from genmojo_core.store.npz import read_arrays
+    from genmojo_core.store.track_import import nearest_object
 
     arrays = read_arrays(points)
     if "object" in arrays:
         return np.asarray(arrays["object"]).astype(np.int64).reshape(-1)
     if clip.masks is None or not len(clip.object_ids):
         return np.zeros(len(t), np.int64)
-    scale = np.array(clip.size) / np.array(clip.source_size)
     out = np.zeros(len(t), np.int64)
-    for n, (frame, place) in enumerate(zip(t, xy * scale, strict=True)):
+    for n, (frame, place) in enumerate(zip(t, xy / np.array(clip.source_size), strict=True)):
         if not 0 <= frame < len(clip):
             raise GenmojoError("value", f"a query asks at frame {frame}, the clip has 0 to {len(clip) - 1}", points)
-        rows, columns = np.nonzero(clip.masks.value[frame])
-        if len(rows):
-            nearest = int(np.argmin(np.square(columns + 0.5 - place[0]) + np.square(rows + 0.5 - place[1])))
-            out[n] = clip.object_ids[int(clip.masks.value[frame][rows[nearest], columns[nearest]]) - 1]
+        found = nearest_object(clip.masks.value[frame], place)
+        out[n] = clip.object_ids[found - 1] if found else 0
     return out
 
 
-def _writer(write: Callable[[TrackSheet, str], None]) -> Callable[[argparse.Namespace, Tell], dict[str, Any]]:
+def _writer(write: Callable[[TrackSheet, str], str | None]) -> Callable[[argparse.Namespace, Tell], dict[str, Any]]:
     """A row's `run` for a function that writes a sheet."""
 
     def run(args: argparse.Namespace, tell: Tell) -> dict[str, Any]:
-        sheet = _chosen(read_sheet(args.file), args)
-        write(sheet, args.output)
+        sheet = _chosen(read_sheet(args.file, args.review), args)
+        warning = write(sheet, args.output)
+        if warning:
+            say(warning)
         tell(1.0)
         return {"path": args.output, "tracks": len(sheet.tracks.xy), "frames": sheet.tracks.state.shape[1]}
 
@@ -116,26 +118,23 @@ def _writer(write: Callable[[TrackSheet, str], None]) -> Callable[[argparse.Name
 def _chosen(sheet: TrackSheet, args: argparse.Namespace) -> TrackSheet:
     """Only the objects and frames asked for."""
     from genmojo_core.cli.export import chosen_frames, chosen_objects
-    from genmojo_core.store.track_sheet import TrackSheet
-    from genmojo_core.tracks.metrics import select
 
     owners = chosen_objects(args)
     rows = np.ones(len(sheet.numbers), bool) if owners is None else np.isin(sheet.tracks.object, owners)
     if not rows.any():
         raise GenmojoError("empty", "holds no track of those objects", args.file, "leave --objects out")
     frames = np.array(chosen_frames(args, sheet.tracks.state.shape[1]))
-    names = tuple(sheet.frame_name(int(t)) for t in frames) if sheet.frame_names else ()
-    return TrackSheet(select(sheet.tracks, rows, frames), sheet.numbers[rows], sheet.object_names, names)
+    return sheet.select(rows, frames)
 
 
 def _reader(read: Callable[[argparse.Namespace], TrackSheet]) -> Callable[[argparse.Namespace, Tell], dict[str, Any]]:
     """A row's `run` for a function that reads a sheet; it is written as our npz."""
 
     def run(args: argparse.Namespace, tell: Tell) -> dict[str, Any]:
-        from genmojo_core.store import npz
+        from genmojo_core.store import track_npz
 
         sheet = read(args)
-        npz.write_tracks(sheet.tracks, args.output)
+        track_npz.write(sheet, args.output)
         tell(1.0)
         return {"path": args.output, "tracks": len(sheet.tracks.xy), "frames": sheet.tracks.state.shape[1],
                 "size": list(sheet.tracks.size)}  # fmt: skip
@@ -143,25 +142,22 @@ def _reader(read: Callable[[argparse.Namespace], TrackSheet]) -> Callable[[argpa
     return run
 
 
-def _write_npz(sheet: TrackSheet, path: str) -> None:
-    from genmojo_core.store import npz
-
-    npz.write_tracks(sheet.tracks, path)
-
-
-def _write_tapvid(sheet: TrackSheet, path: str) -> None:
+def _write_tapvid(sheet: TrackSheet, path: str) -> str | None:
     from genmojo_core.store import tapvid
 
-    tapvid.write(sheet.tracks, path)
+    tapvid.write(sheet, path)
+    outside = tapvid.clipped_count(sheet.tracks)
+    return f"{outside} visible points lie outside the picture; TAP-Vid has them at its border" if outside else None
 
 
-def _by_module(name: str) -> Callable[[TrackSheet, str], None]:
+def _by_module(name: str) -> Callable[[TrackSheet, str], str | None]:
     """`write` of a format's module, imported when it is used."""
 
-    def write(sheet: TrackSheet, path: str) -> None:
+    def write(sheet: TrackSheet, path: str) -> str | None:
         import importlib
 
         importlib.import_module(f"genmojo_core.store.{name}").write(sheet, path)
+        return None
 
     return write
 
@@ -169,13 +165,11 @@ def _by_module(name: str) -> Callable[[TrackSheet, str], None]:
 def _read_tapvid(args: argparse.Namespace) -> TrackSheet:
     """npz, or a pickle after consent."""
     from genmojo_core.store import tapvid, tapvid_pickle
-    from genmojo_core.store.track_sheet import TrackSheet
 
     if not str(args.file).lower().endswith((".pkl", ".pickle")):
-        return TrackSheet.of_tracks(tapvid.read(args.file, args.size))
+        return tapvid.read(args.file, args.size)
     with tempfile.TemporaryDirectory(prefix="genmojo-tapvid-") as folder:
-        tracks = tapvid_pickle.read(args.file, folder, args.allow_pickle, args.video, args.size)
-    return TrackSheet.of_tracks(tracks)
+        return tapvid_pickle.read(args.file, folder, args.allow_pickle, args.video, args.size)
 
 
 def _read_cotracker(args: argparse.Namespace) -> TrackSheet:
@@ -218,7 +212,7 @@ def _read_hdf5(args: argparse.Namespace) -> TrackSheet:
 
 EXPORTS.update({
     f.name: f for f in (
-        Format("tracks", "our point tracks, npz", _writer(_write_npz)),
+        Format("tracks", "our point tracks, npz", _writer(_by_module("track_npz"))),
         Format("tapvid", "TAP-Vid npz", _writer(_write_tapvid)),
         Format("cotracker", "CoTracker npz", _writer(_by_module("cotracker_npz"))),
         Format("sleap", "SLEAP analysis HDF5", _writer(_by_module("sleap"))),

@@ -54,6 +54,14 @@ def open_source(path: str | Path) -> FrameSource:
     return FolderFrames(layout.frames, fps or DEFAULT_FPS)
 
 
+def frame_names(path: str | Path) -> tuple[str, ...]:
+    """File names of a clip's frames; none for a video, or where the clip is not there any more."""
+    try:
+        return tuple(file.name for file in layouts.find(Path(path)).frames)
+    except GenmojoError:
+        return ()
+
+
 class FolderFrames:
     """Frames in image files, one file each; `FrameSource`."""
 

@@ -47,17 +47,22 @@ def write_arrays(path: str | Path, arrays: Mapping[str, np.ndarray]) -> None:
 
 def write_tracks(tracks: PointTracks, path: str | Path) -> None:
     """Write point tracks. Raises GenmojoError("io"), or "value" if a visible point has no position."""
+    write_arrays(path, arrays_of(tracks, str(path)))
+
+
+def arrays_of(tracks: PointTracks, where: str) -> dict[str, np.ndarray]:
+    """The arrays of our layout. Raises GenmojoError("value") if a visible point has no position."""
     lost = tracks.visible & ~np.isfinite(tracks.xy).all(axis=-1)
     if lost.any():
         point, frame = (int(i) for i in np.argwhere(lost)[0])
-        raise GenmojoError("value", f"track {point} is visible in frame {frame} but has no position", str(path))
+        raise GenmojoError("value", f"track {point} is visible in frame {frame} but has no position", where)
     arrays: dict[str, np.ndarray] = {"xy": tracks.xy.astype(np.float32), "state": tracks.state.astype(np.uint8),
               "object": tracks.object.astype(np.int64), "size": np.array(tracks.size, np.int64)}  # fmt: skip
     for key, dtype in _OPTIONAL.items():
         value = getattr(tracks, key)
         if value is not None:
             arrays[key] = value.astype(dtype)
-    write_arrays(path, arrays)
+    return arrays
 
 
 def read_tracks(path: str | Path, size: tuple[int, int] | None = None) -> PointTracks:
@@ -66,7 +71,11 @@ def read_tracks(path: str | Path, size: tuple[int, int] | None = None) -> PointT
     `size` (width, height) is used where the file has none; without both the truth's points decide nothing and
     GenmojoError("schema") is raised. Raises GenmojoError for everything `read_arrays` and `check_tracks` name.
     """
-    arrays = read_arrays(path)
+    return tracks_of(read_arrays(path), size, path)
+
+
+def tracks_of(arrays: Mapping[str, np.ndarray], size: tuple[int, int] | None, path: str | Path) -> PointTracks:
+    """The tracks of arrays that were read, as `read_tracks`."""
     tracks = _from_truth(arrays, size, path) if "tracks" in arrays else _from_ours(arrays, size, path)
     check_tracks(tracks, str(path))
     return tracks

@@ -1,12 +1,13 @@
 """SLEAP analysis HDF5: `tracks` on disk (tracks, 2, nodes, frames), NaN where a point is not seen.
 
-SLEAP counts pixels from the centre of the first one. An object is a SLEAP track, a key point a node. It has no states:
-ours go along in a dataset of our own that SLEAP ignores.
+SLEAP counts pixels from the centre of the first one. An object is a SLEAP track, a key point a node. It has no states
+and no hidden places: ours go along in datasets of our own that SLEAP ignores. What SLEAP has changed since counts.
 """
 
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 from pathlib import Path
 
 import h5py
@@ -15,13 +16,14 @@ import numpy as np
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.atomic import write_bytes
 from genmojo_core.store.safe import json_text, open_hdf5, read_array
+from genmojo_core.store.side_arrays import cell_arrays, with_cells
 from genmojo_core.store.track_sheet import TrackSheet, blank_tracks
-from genmojo_core.tracks.model import NONE, OUT_OF_VIEW, VISIBLE
+from genmojo_core.tracks.model import NONE, OUT_OF_VIEW, VISIBLE, PointTracks
 
 CENTRE = 0.5
-_STATE = "genmojo_state"  # (tracks, nodes, frames) uint8
-_IDS = "genmojo_object"  # (tracks,) int64
-_SIZE = "genmojo_size"  # (2,) int64
+_OURS = "genmojo_"  # state, flags, source (tracks, nodes, frames) uint8, conf float32, xy (..., 2) raster px
+_CELLS = {"state": np.uint8, "flags": np.uint8, "source": np.uint8, "conf": np.float32}
+_TEXTS = ("point_name", "review")  # (tracks, nodes)
 
 
 def write(sheet: TrackSheet, path: str | Path) -> None:
@@ -40,12 +42,14 @@ def write(sheet: TrackSheet, path: str | Path) -> None:
         file["instance_scores"] = np.where(seen, 1.0, np.nan)
         file["tracking_scores"] = np.where(seen, 1.0, np.nan)
         file["track_names"] = np.array([sheet.name_of(i).encode() for i in owners])
-        file["node_names"] = np.array([str(n).encode() for n in points])
+        file["node_names"] = np.array([name.encode() for name in sheet.part_names(points, rows)])
         file["edge_names"] = np.zeros((0, 2), "S1")
         file["edge_inds"] = np.zeros((0, 2), np.int64)
         file["provenance"] = json_text({"program": "genmojo"})
-        file[_STATE], file[_IDS] = state, np.array(owners, np.int64)
-        file[_SIZE] = np.array(sheet.tracks.size, np.int64)
+        for name, array in _own_arrays(sheet, rows, xy, state).items():
+            file[_OURS + name] = array
+        file[_OURS + "object"], file[_OURS + "number"] = np.array(owners, np.int64), np.array(points, np.int64)
+        file[_OURS + "size"] = np.array(sheet.tracks.size, np.int64)
     write_bytes(path, memory.getbuffer())
 
 
@@ -63,11 +67,23 @@ def read(path: str | Path, size: tuple[int, int] | None = None, frames: int | No
     if tracks.ndim != 4 or tracks.shape[1] != 2 or tracks.dtype.kind != "f":
         raise GenmojoError("schema", f"tracks have the shape {tracks.shape}, expected (tracks, 2, nodes, frames)",
                            str(path))  # fmt: skip
-    if _SIZE in arrays:
-        size = int(arrays[_SIZE][0]), int(arrays[_SIZE][1])
+    if _OURS + "size" in arrays:
+        size = int(arrays[_OURS + "size"][0]), int(arrays[_OURS + "size"][1])
     if size is None:
         raise GenmojoError("schema", "does not say the image size", str(path), "give --size WIDTHxHEIGHT")
     return _sheet(arrays, size, max(tracks.shape[3], frames or 0), str(path))
+
+
+def _own_arrays(sheet: TrackSheet, rows: np.ndarray, xy: np.ndarray, state: np.ndarray) -> dict[str, np.ndarray]:
+    """What SLEAP has no place for, by our names; rows (K, P) as of the sheet's grid."""
+    there = rows >= 0
+    found: dict[str, np.ndarray] = {"state": state, "xy": xy.astype(np.float32)}
+    for name, array in cell_arrays(sheet.tracks).items():
+        found[name] = np.where(there[..., None], array[rows], 0).astype(array.dtype)
+    for name, words in (("point_name", sheet.point_names), ("review", sheet.reviews)):
+        if any(words):
+            found[name] = np.array([[words[r].encode() if r >= 0 else b"" for r in line] for line in rows])
+    return found
 
 
 def _sheet(arrays: dict[str, np.ndarray], size: tuple[int, int], frames: int, where: str) -> TrackSheet:
@@ -79,19 +95,44 @@ def _sheet(arrays: dict[str, np.ndarray], size: tuple[int, int], frames: int, wh
     if len(names) != owners or len(nodes) != points:
         raise GenmojoError("schema", f"names {len(names)} tracks and {len(nodes)} nodes for {owners} and {points}",
                            where)  # fmt: skip
-    ids = arrays.get(_IDS, np.arange(1, owners + 1)).astype(np.int64)
-    numbers = [int(n) if n.isdigit() else k + 1 for k, n in enumerate(nodes)]
-    pairs = [(k, p) for k in range(owners) for p in range(points)]
-    made = blank_tracks(len(pairs), frames, [int(ids[k]) for k, _ in pairs], size)
-    for row, (k, p) in enumerate(pairs):
-        made.xy[row, :held] = tracks[k, :, p].T + CENTRE
-        made.state[row, :held] = np.where(np.isfinite(made.xy[row, :held]).all(axis=1), VISIBLE, NONE)
-        if _STATE in arrays and arrays[_STATE].shape == (owners, points, held):
-            told = np.minimum(arrays[_STATE][k, p], OUT_OF_VIEW)
-            made.state[row, :held] = np.where(made.state[row, :held] == VISIBLE, VISIBLE,
-                                              np.where(told == VISIBLE, NONE, told))  # fmt: skip
-    named = {int(i): n for i, n in zip(ids, names, strict=True)}
-    return TrackSheet(made, np.array([numbers[p] for _, p in pairs], np.int64), named).without_empty()
+    told = _OURS + "object" in arrays and arrays[_OURS + "object"].shape == (owners,)
+    ids = (arrays[_OURS + "object"] if told else np.arange(1, owners + 1)).astype(np.int64)
+    numbers = np.array([int(n) if n.isdigit() else k + 1 for k, n in enumerate(nodes)], np.int64)
+    if _OURS + "number" in arrays and arrays[_OURS + "number"].shape == (points,):
+        numbers = arrays[_OURS + "number"].astype(np.int64)
+    made = blank_tracks(owners * points, frames, np.repeat(ids, points).tolist(), size)
+    made.xy[:, :held] = np.transpose(tracks, (0, 2, 3, 1)).reshape(-1, held, 2) + CENTRE
+    made.state[np.isfinite(made.xy).all(axis=2)] = VISIBLE
+    texts = {key: arrays.get(_OURS + key) for key in _TEXTS}
+    words = {key: tuple(_text(w) for w in found.reshape(-1)) for key, found in texts.items()
+             if found is not None and found.shape == (owners, points)}  # fmt: skip
+    plain = tuple("" if n.isdigit() else n for n in nodes) * owners
+    return replace(
+        TrackSheet(_with_ours(made, arrays, held), np.tile(numbers, owners),
+                   {int(i): n for i, n in zip(ids, names, strict=True)}, owners_told=told),
+        point_names=words.get("point_name", plain if any(plain) else ()), reviews=words.get("review", ()),
+    ).without_empty()  # fmt: skip
+
+
+def _with_ours(made: PointTracks, arrays: dict[str, np.ndarray], held: int) -> PointTracks:
+    """Our states, hidden places and flags in the first `held` frames, where SLEAP's own arrays leave room for them."""
+    count, frames = made.state.shape
+    cells = {}
+    for name, dtype in _CELLS.items():
+        found = arrays.get(_OURS + name)
+        if found is not None and found.ndim == 3 and found.size == count * held and found.shape[2] == held:
+            cells[name] = np.zeros((count, frames), dtype)
+            cells[name][:, :held] = found.reshape(count, held).astype(dtype)
+    seen = made.state == VISIBLE
+    if "state" in cells:
+        told = np.minimum(cells.pop("state"), OUT_OF_VIEW)
+        made.state[:] = np.where(seen, VISIBLE, np.where(told == VISIBLE, NONE, told))
+    there = arrays.get(_OURS + "xy")
+    if there is not None and there.size == 2 * count * held and there.dtype.kind == "f":
+        hidden = (made.state != NONE) & ~seen
+        hidden[:, held:] = False
+        made.xy[hidden] = there.reshape(count, held, 2)[hidden[:, :held]]
+    return with_cells(made, cells)
 
 
 def _text(value: bytes | str) -> str:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store import tapvid
-from genmojo_core.tracks.model import PointTracks
+from genmojo_core.store.track_sheet import TrackSheet
 
 MAX_BYTES = 8 << 30
 _SECONDS = 600
@@ -53,7 +53,7 @@ def read(
     consent: bool,
     video: str | None = None,
     size: tuple[int, int] | None = None,
-) -> PointTracks:
+) -> TrackSheet:
     """The tracks of one video (default: the first) of a pickle, in pixels of its own frames or of `size`.
 
     Raises as `unpack`, and GenmojoError("argument") for an unknown video.

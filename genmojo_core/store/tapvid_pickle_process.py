@@ -16,6 +16,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import cv2
 import numpy as np
 
 from genmojo_core.store.npz import write_arrays
@@ -68,17 +69,40 @@ def main(arguments: Sequence[str]) -> int:
 def _videos(held: Any) -> list[tuple[str, dict[str, np.ndarray]]]:
     """Name and arrays of every video: a dict of videos (DAVIS, RoboTAP) or a list of them (RGB-stacking)."""
     items = list(held.items()) if isinstance(held, Mapping) else list(enumerate(held))
-    found = []
+    found: list[tuple[str, dict[str, np.ndarray]]] = []
+    taken: set[str] = set()
     for name, video in items:
         points, occluded = np.asarray(video["points"], np.float32), np.asarray(video["occluded"], bool)
         if points.ndim != 3 or points.shape[2] != 2 or occluded.shape != points.shape[:2]:
             raise ValueError(f"video {name} has points {points.shape}")
         arrays = {"points": points, "occluded": occluded}
-        frames = video.get("video")
-        if isinstance(frames, np.ndarray) and frames.ndim == 4:
-            arrays["size"] = np.array([frames.shape[2], frames.shape[1]], np.int64)
-        found.append((re.sub(r"[^A-Za-z0-9_-]", "_", str(name))[:100] or "video", arrays))
+        size = _size(video.get("video"))
+        if size is not None:
+            arrays["size"] = np.array(size, np.int64)
+        found.append((_file_name(str(name), taken), arrays))
     return found
+
+
+def _size(frames: Any) -> tuple[int, int] | None:
+    """(width, height) of frames: an array of them, or pictures as the bytes of JPEG files (Kinetics, RoboTAP)."""
+    if isinstance(frames, np.ndarray) and frames.ndim == 4:
+        return int(frames.shape[2]), int(frames.shape[1])
+    first = frames[0] if isinstance(frames, np.ndarray | list) and len(frames) else None
+    if not isinstance(first, bytes) or not first:
+        return None
+    picture = cv2.imdecode(np.frombuffer(first, np.uint8), cv2.IMREAD_GRAYSCALE)
+    return None if picture is None else (picture.shape[1], picture.shape[0])
+
+
+def _file_name(video: str, taken: set[str]) -> str:
+    """A name for a video's file that no other video has."""
+    plain = re.sub(r"[^A-Za-z0-9_-]", "_", video)[:100] or "video"
+    name, count = plain, 1
+    while name.lower() in taken:
+        count += 1
+        name = f"{plain}_{count}"
+    taken.add(name.lower())
+    return name
 
 
 def _give_up_rights() -> None:

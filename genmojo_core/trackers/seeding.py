@@ -19,8 +19,10 @@ import numpy as np
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
+from genmojo_core.store import track_npz
 from genmojo_core.trackers.solver import SolveRequest, TrackSolver
 from genmojo_core.tracks.annotation import CONFIRMED, HUMAN, KEY, Annotation, Cells, Proposal
+from genmojo_core.tracks.interpolate import placed
 from genmojo_core.tracks.model import NONE, VISIBLE, PointTracks
 
 NAMES = ("optical", "scene", "cotracker", "file")
@@ -44,8 +46,7 @@ class Queries:
     @staticmethod
     def of(annotation: Annotation, tracks: list[int] | None = None) -> tuple[list[int], Queries]:
         """The first key of every track (or of some); tracks without a key are left out. Returns ids and queries."""
-        asked = [info.id for info in annotation.active()] if tracks is None else tracks
-        ids = [i for i in asked if len(annotation.keys(i))]
+        ids = [i for i in (annotation.tracks if tracks is None else tracks) if len(annotation.keys(i))]
         t = np.array([annotation.keys(i)[0] for i in ids], np.int64)
         xy = np.array([annotation.track(i).xy[f] for i, f in zip(ids, t, strict=True)], np.float64).reshape(-1, 2)
         return ids, Queries(t, xy, np.array([annotation.tracks[i].object for i in ids], np.int64))
@@ -149,10 +150,10 @@ class FileSeeder:
         self, clip: Clip, queries: Queries, progress: Progress | None = None, cancelled: Cancelled | None = None
     ) -> PointTracks:
         """For each query the track of the file that is nearest to it in its frame; none where none is near."""
-        tracks = read_any(self.path, clip.source_size)
+        tracks = track_npz.read(self.path, clip.source_size).tracks
         if tracks.state.shape[1] != len(clip):
             raise GenmojoError("schema", f"has {tracks.state.shape[1]} frames, the clip {len(clip)}", str(self.path))
-        tracks = tracks.resized(*clip.source_size)
+        tracks = placed(tracks.resized(*clip.source_size))
         frames = len(clip)
         xy = np.zeros((len(queries.t), frames, 2), np.float32)
         state, conf = np.zeros((len(xy), frames), np.uint8), np.zeros((len(xy), frames), np.float32)
@@ -192,24 +193,10 @@ def make(name: str, path: str | Path | None = None, **options: str) -> Seeder:
 
 def proposals(tracks: PointTracks, ids: list[int], name: str) -> dict[int, Proposal]:
     """Tracks, row by row, as proposals for tracks of an annotation."""
+    tracks = placed(tracks)
     conf = np.full(tracks.state.shape, 0.5, np.float32) if tracks.conf is None else tracks.conf
     return {track: Proposal(name, np.nan_to_num(tracks.xy[row]).astype(np.float32), tracks.state[row],
                             conf[row].astype(np.float32)) for row, track in enumerate(ids)}  # fmt: skip
-
-
-def read_any(path: Path, size: tuple[int, int]) -> PointTracks:
-    """Tracks of an npz by its arrays: TAP-Vid (`points`), CoTracker (`visibility`) or ours. Raises GenmojoError."""
-    from genmojo_core.clip.npz import open_npz
-    from genmojo_core.store import cotracker_npz, npz, tapvid
-
-    if not path.is_file():
-        raise GenmojoError("io", "does not exist or is no file", str(path), "check the name")
-    arrays = open_npz(path)
-    if "points" in arrays and "occluded" in arrays:
-        return tapvid.read(path, size)
-    if "tracks" in arrays and "visibility" in arrays:
-        return cotracker_npz.read(path, size).tracks
-    return npz.read_tracks(path, size)
 
 
 def _keyed(queries: Queries, row: int, frames: int) -> Cells:

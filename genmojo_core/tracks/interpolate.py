@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from genmojo_core.tracks.annotation import BY_HOLD, HOLD, LINEAR, Cells
-from genmojo_core.tracks.model import NONE, VISIBLE
+from genmojo_core.tracks.model import NONE, VISIBLE, PointTracks
 
 
 def line(xy0: np.ndarray, xy1: np.ndarray, t0: int, t1: int) -> np.ndarray:  # (2,), (2,) -> (t1 - t0 - 1, 2)
@@ -46,3 +48,22 @@ def carried(count: int, t: int, previous: int | None, following: int | None, shi
         after = frames > t
         weight[after] = np.clip((following - frames[after]) / max(following - t, 1), 0.0, 1.0)
     return (weight[:, None] * np.asarray(shift, np.float64)).astype(np.float32)
+
+
+def placed(tracks: PointTracks) -> PointTracks:
+    """The same tracks with a place wherever they have a state.
+
+    A point of which only its state is known lies on the line between its known neighbours in time, or stays at the only
+    one; a track that is nowhere known loses its states. Where the state is NONE the place is NaN.
+    """
+    xy, state = np.array(tracks.xy, np.float32), np.array(tracks.state)
+    known = np.isfinite(xy).all(axis=-1) & (state != NONE)
+    frames = np.arange(state.shape[1])
+    for row in np.flatnonzero(((state != NONE) & ~known).any(axis=1)):
+        at, lost = np.flatnonzero(known[row]), np.flatnonzero((state[row] != NONE) & ~known[row])
+        if len(at):
+            xy[row, lost] = np.stack([np.interp(frames[lost], at, xy[row, at, axis]) for axis in (0, 1)], axis=1)
+        else:
+            state[row] = NONE
+    xy[state == NONE] = np.nan
+    return replace(tracks, xy=xy, state=state)

@@ -10,11 +10,10 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog, QMenu
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store import project_file
-from genmojo_core.store.track_sheet import TrackSheet
 from genmojo_core.tracks import edit_tracks
 from genmojo_core.tracks.annotation import REASONS
 from genmojo_studio import notify
-from genmojo_studio.annotate import track_files, verbs
+from genmojo_studio.annotate import take_tracks, verbs
 from genmojo_studio.annotate.log_dialog import LogDialog
 from genmojo_studio.annotate.merge_dialog import MergeDialog
 from genmojo_studio.annotate.seed_dialog import SeedDialog
@@ -105,24 +104,11 @@ class Dialogs:
 
     def import_tracks(self) -> None:
         """Tracks of a file, into points where no person has spoken."""
-        name, chosen = QFileDialog.getOpenFileName(self._w, tr("Import tracks"), "", track_files.filters())
-        if not name:
-            return
-        s = self._s
-
-        def take() -> None:
-            sheet = track_files.by_title(chosen).read(Path(name), s.annotation.size, s.annotation.frames)
-            s.do(track_files.import_edit(s.annotation, sheet, s.project.person))
-
-        self._try(take)
+        take_tracks.ask_import(self._w)
 
     def export_tracks(self) -> None:
         """Tracks into a file."""
-        name, chosen = QFileDialog.getSaveFileName(self._w, tr("Export tracks"), "tracks.npz", track_files.filters())
-        if name:
-            sheet = TrackSheet.of_annotation(self._s.annotation)
-            self._try(lambda: track_files.by_title(chosen).write(sheet, Path(name)))
-            self._s.said.emit(tr("Exported: {name}").format(name=name))
+        take_tracks.export_tracks(self._w)
 
     def _try(self, work: object) -> None:
         try:

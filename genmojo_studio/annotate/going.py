@@ -77,8 +77,7 @@ class Going:
 
     def worst(self) -> None:
         """The worst spot that was not shown yet; after the last it begins again."""
-        active = {i.id for i in self._s.annotation.active()}
-        left = [spot for spot in self.spots if spot not in self._seen and spot.track in active]
+        left = [spot for spot in self.spots if spot not in self._seen and spot.track in self._s.annotation.tracks]
         if not left and self.spots:
             self._seen, left = [], self.spots
         if not left:

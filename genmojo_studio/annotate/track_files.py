@@ -1,4 +1,4 @@
-"""Files of tracks by format: which endings they have, how they are read and written. No Qt."""
+"""Files of tracks by format: which endings they have, how they are written, read and told apart. No Qt."""
 
 from __future__ import annotations
 
@@ -6,18 +6,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
+import h5py
 
 from genmojo_core.errors import GenmojoError
-from genmojo_core.sentences import say
-from genmojo_core.store import coco, cotracker_npz, cvat, deeplabcut, npz, sleap, tapvid, tracks_hdf5
+from genmojo_core.store import coco, cotracker_npz, cvat, deeplabcut, sleap, tapvid, track_npz, tracks_hdf5
 from genmojo_core.store.track_sheet import TrackSheet
-from genmojo_core.tracks import edit_tracks
-from genmojo_core.tracks.annotation import CONFIRMED, HUMAN, IMPORT, KEY, Annotation, Cells, ObjectInfo
-from genmojo_core.tracks.edits import CellsChange, Edit, MetaChange, ObjectChange, TrackChange
-from genmojo_core.tracks.model import NONE
 
 Size = tuple[int, int]
+PICKLES = (".pkl", ".pickle")
 
 
 @dataclass(frozen=True)
@@ -33,14 +29,12 @@ class Format:
 
 def _npz(path: Path, size: Size, frames: int) -> TrackSheet:
     """An npz by what it holds: TAP-Vid, CoTracker or ours."""
-    from genmojo_core.trackers.seeding import read_any
-
-    return TrackSheet.of_tracks(read_any(path, size))
+    return track_npz.read(path, size)
 
 
 FORMATS = (
-    Format("genmojo", "GenMOJO tracks", "npz", lambda s, p: npz.write_tracks(s.tracks, p), _npz),
-    Format("tapvid", "TAP-Vid", "npz", lambda s, p: tapvid.write(s.tracks, p), _npz),
+    Format("genmojo", "GenMOJO tracks", "npz", track_npz.write, _npz),
+    Format("tapvid", "TAP-Vid", "npz", tapvid.write, _npz),
     Format("cotracker", "CoTracker", "npz", cotracker_npz.write, _npz),
     Format("hdf5", "GenMOJO HDF5", "h5", tracks_hdf5.write, lambda p, size, n: tracks_hdf5.read(p)),
     Format("sleap", "SLEAP analysis", "analysis.h5", sleap.write, sleap.read),
@@ -50,57 +44,47 @@ FORMATS = (
 )
 
 
-def by_title(title: str) -> Format:
-    """The format of a line of `filters`."""
-    return next((f for f in FORMATS if title.startswith(f.title)), FORMATS[0])
+def patterns() -> str:
+    """All endings that can be read, as a file dialog wants them."""
+    endings = dict.fromkeys(f.ending.rsplit(".", 1)[-1] for f in FORMATS)
+    return " ".join([*(f"*.{e}" for e in endings), *(f"*{e}" for e in PICKLES)])
 
 
-def filters() -> str:
-    """The lines of a file dialog."""
-    return ";;".join(f"{f.title} (*.{f.ending})" for f in FORMATS)
+def told_apart(path: Path) -> Format:
+    """The format of a file by what is in it. Raises GenmojoError: "io", "format"."""
+    try:
+        with open(path, "rb") as stream:
+            head = stream.read(64).removeprefix(b"\xef\xbb\xbf").lstrip()
+    except OSError as error:
+        raise GenmojoError("io", f"cannot be read ({error.strerror})", str(path), "check the name") from error
+    by_name = {f.name: f for f in FORMATS}
+    if head.startswith(b"PK"):
+        return by_name["genmojo"]
+    if head.startswith(b"\x89HDF"):
+        return by_name["sleap" if _has_nodes(path) else "hdf5"]
+    if head.startswith((b"{", b"[")):
+        return by_name["coco"]
+    if head.startswith(b"<"):
+        return by_name["cvat"]
+    if path.suffix.lower() == ".csv":
+        return by_name["deeplabcut"]
+    raise GenmojoError("format", "holds no tracks we know", str(path), f"give one of {patterns()}")
 
 
-def import_edit(annotation: Annotation, sheet: TrackSheet, person: str) -> Edit:
-    """Tracks of a file into an annotation, as one edit: into points that exist where a person has not spoken, else as
-    new points of their objects; objects that are missing are made.
-
-    Raises GenmojoError("schema") for another number of frames.
-    """
-    tracks = sheet.tracks.resized(*annotation.size)
-    if tracks.state.shape[1] != annotation.frames:
-        raise GenmojoError("schema", f"has {tracks.state.shape[1]} frames, the clip has {annotation.frames}", "import")
-    changes: list = []
-    order = max((o.order for o in annotation.objects.values()), default=0)
-    for owner in np.unique(tracks.object).tolist():
-        if owner and owner not in annotation.objects:
-            order += 1
-            changes.append(ObjectChange(owner, None, ObjectInfo(owner, sheet.name_of(owner), order, "chosen")))
-    last = annotation.new_track_id() - 1
-    known = {(i.object, i.number): i.id for i in annotation.tracks.values()}
-    for row, (owner, number) in enumerate(zip(tracks.object.tolist(), sheet.numbers.tolist(), strict=True)):
-        track = known.get((owner, number))
-        if track is None:
-            last += 1
-            track = last
-            made = edit_tracks.TrackInfo(track, int(owner), int(number), "", person)
-            changes.append(TrackChange(track, None, made))
-            before = Cells.empty(annotation.frames)
-        else:
-            before = annotation.track(track).copy()
-        frames, after = _imported(before, tracks.xy[row], tracks.state[row])
-        if len(frames):
-            kept = Cells(*(a[frames] for a in before.arrays()))
-            changes.append(CellsChange(track, frames.astype(np.int32), kept, after))
-    changes.append(MetaChange("last_track", annotation.meta.get("last_track"), str(last)))
-    return Edit("import", say("import", count=len(tracks.object)), tuple(changes), 0, None)
+def named(path: Path, form: Format) -> Path:
+    """The path with the ending of its format; the ending of another format goes."""
+    name = path.name
+    if name.lower().endswith("." + form.ending):
+        return path
+    for ending in sorted((f.ending for f in FORMATS), key=len, reverse=True):
+        name = name.removesuffix("." + ending)
+    return path.with_name(f"{name}.{form.ending}")
 
 
-def _imported(before: Cells, xy: np.ndarray, state: np.ndarray) -> tuple[np.ndarray, Cells]:
-    """Frames (n,) that a file may fill, and their cells: those that no person placed, confirmed or made."""
-    free = (before.flags & (KEY | CONFIRMED)) == 0
-    free &= (before.source != HUMAN) & (state != NONE)
-    frames = np.flatnonzero(free)
-    count = len(frames)
-    small = [state[frames].astype(np.uint8), np.zeros(count, np.uint8), np.full(count, IMPORT, np.uint8)]
-    return frames, Cells(np.nan_to_num(xy[frames]).astype(np.float32), small[0], small[1], small[2],
-                         np.full(count, 0.5, np.float32), np.zeros(count, np.uint8))  # fmt: skip
+def _has_nodes(path: Path) -> bool:
+    """Whether an HDF5 file is SLEAP's. Raises GenmojoError("format")."""
+    try:
+        with h5py.File(path) as file:
+            return "node_names" in file
+    except OSError as error:
+        raise GenmojoError("format", "is no HDF5 file or is damaged", str(path), "export it again") from error

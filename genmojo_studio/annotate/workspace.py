@@ -41,7 +41,7 @@ from genmojo_studio.annotate.strip import Strip
 from genmojo_studio.annotate.tour import Tour
 from genmojo_studio.annotate.trackability import measure
 from genmojo_studio.annotate.work import Work
-from genmojo_studio.panels import Pages, Panels
+from genmojo_studio.panels import Panels
 from genmojo_studio.settings import Settings
 from genmojo_studio.state import AppState
 from genmojo_studio.translate import tr
@@ -141,7 +141,7 @@ class AnnotateWorkspace(QMainWindow):
         yield
         self.buttons, self.play = ButtonPanel(self.table), PlayPanel(session, self.table)
         yield
-        self.pages = Pages()
+        self.pages = QStackedWidget()
         self.objects, self.points = ObjectsPage(session), PointsPage(session)
         yield
         self.refine, self.review = RefinePage(session), ReviewPage(session)
@@ -243,9 +243,9 @@ class AnnotateWorkspace(QMainWindow):
         if step.clicks:
             self.objects.use_tool(None)
         self.canvas.places = step.places_points
-        tracks = self.session.annotation.active()
+        tracks = self.session.annotation.tracks
         if step.needs_track and self.session.track is None and tracks:
-            self.session.select_track(tracks[0].id)
+            self.session.select_track(next(iter(tracks)))
         if step.places_points and self.hands is not None:
             self.hands.placing.begin()
         self.restore_layout()

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from genmojo_core.store import npz, tapvid
+from genmojo_core.store import track_npz
 from genmojo_core.tracks.model import NONE, VISIBLE, PointTracks
 
 
@@ -76,13 +76,11 @@ def apart(tracks: PointTracks, reference: PointTracks, pair_within: float = 6.0)
 
 
 def read(path: str | Path, size: tuple[int, int]) -> PointTracks:
-    """Tracks of a file in pixels of a clip of `size` (width, height): our npz or a TAP-Vid npz.
+    """Tracks of a file in pixels of a clip of `size` (width, height): our npz, TAP-Vid's or CoTracker's.
 
     Raises GenmojoError for whatever the file can cause.
     """
-    names = npz.read_arrays(path)
-    found = tapvid.read(path, size) if {"points", "occluded"} <= set(names) else npz.read_tracks(path, size)
-    return found.resized(*size)
+    return track_npz.read(path, size).tracks.resized(*size)
 
 
 def _at_256(tracks: PointTracks) -> np.ndarray:  # (N, T, 2), NaN where there is no position

@@ -84,14 +84,6 @@
       <translation>Wovon beide ausgingen (abbrechen, wenn es das nicht gibt)</translation>
     </message>
     <message>
-      <source>Import tracks</source>
-      <translation>Spuren importieren</translation>
-    </message>
-    <message>
-      <source>Export tracks</source>
-      <translation>Spuren exportieren</translation>
-    </message>
-    <message>
       <source>No moment has a name yet (Ctrl+S).</source>
       <translation>Noch kein Stand hat einen Namen (Strg+S).</translation>
     </message>
@@ -102,10 +94,6 @@
     <message>
       <source>Back at: </source>
       <translation>Zurück bei: </translation>
-    </message>
-    <message>
-      <source>Exported: {name}</source>
-      <translation>Exportiert: {name}</translation>
     </message>
     <message>
       <source>Dope sheet: states of all points over time</source>
@@ -562,10 +550,6 @@
     <message>
       <source>There are {n} objects already; reject one first.</source>
       <translation>Es sind schon {n} Objekte; verwerfen Sie erst eines.</translation>
-    </message>
-    <message>
-      <source>{n} tracks of {name} are put aside; they come back if you choose it again.</source>
-      <translation>{n} Spuren von {name} sind beiseitegelegt; sie kommen zurück, wenn es wieder gewählt wird.</translation>
     </message>
     <message>
       <source>This frame is not on show yet.</source>
@@ -1314,6 +1298,110 @@
     <message>
       <source>The active point has no track yet.</source>
       <translation>Der aktive Punkt hat noch keine Spur.</translation>
+    </message>
+    <message>
+      <source>Places, states, names, numbers and flags come back when it is imported here.</source>
+      <translation>Orte, Zustände, Namen, Nummern und Kennzeichen kommen zurück, wenn die Datei hier eingelesen wird.</translation>
+    </message>
+    <message>
+      <source>Import tracks</source>
+      <translation>Spuren importieren</translation>
+    </message>
+    <message>
+      <source>Which video?</source>
+      <translation>Welches Video?</translation>
+    </message>
+    <message>
+      <source>Export tracks</source>
+      <translation>Spuren exportieren</translation>
+    </message>
+    <message>
+      <source>all but rejected ones ({n})</source>
+      <translation>alle außer verworfenen ({n})</translation>
+    </message>
+    <message>
+      <source>all ({n})</source>
+      <translation>alle ({n})</translation>
+    </message>
+    <message>
+      <source>approved ones only ({n})</source>
+      <translation>nur freigegebene ({n})</translation>
+    </message>
+    <message>
+      <source>Choose file …</source>
+      <translation>Datei wählen …</translation>
+    </message>
+    <message>
+      <source>Format</source>
+      <translation>Format</translation>
+    </message>
+    <message>
+      <source>Tracks</source>
+      <translation>Spuren</translation>
+    </message>
+    <message>
+      <source>Holds what is seen, no states: hidden points, flags and reviews do not come back.</source>
+      <translation>Enthält, was sichtbar ist, keine Zustände: verdeckte Punkte, Kennzeichen und Prüfungen kommen nicht zurück.</translation>
+    </message>
+    <message>
+      <source>Points beside the picture lie on its border for other programs; read here, they come back.</source>
+      <translation>Punkte neben dem Bild liegen für andere Programme auf seinem Rand; hier eingelesen, kommen sie zurück.</translation>
+    </message>
+    <message>
+      <source>{n} new objects</source>
+      <translation>{n} neue Objekte</translation>
+    </message>
+    <message>
+      <source>{n} locked ones left alone</source>
+      <translation>{n} gesperrte unberührt</translation>
+    </message>
+    <message>
+      <source>{n} places of yours kept</source>
+      <translation>{n} eigene Orte behalten</translation>
+    </message>
+    <message>
+      <source>{n} without any place left out</source>
+      <translation>{n} ohne jeden Ort ausgelassen</translation>
+    </message>
+    <message>
+      <source>{name} is a pickle. Opening one can run code; it is opened in a closed process that lets nothing through but arrays. Open it?</source>
+      <translation>{name} ist ein Pickle. Beim Öffnen kann Code ausgeführt werden; ein abgeschlossener Prozess öffnet ihn und lässt nur Arrays durch. Öffnen?</translation>
+    </message>
+    <message>
+      <source>Open a pickle?</source>
+      <translation>Einen Pickle öffnen?</translation>
+    </message>
+    <message>
+      <source>All track files</source>
+      <translation>Alle Dateien mit Spuren</translation>
+    </message>
+    <message>
+      <source>Imported: {filled} points filled, {made} new</source>
+      <translation>Eingelesen: {filled} Punkte gefüllt, {made} neue</translation>
+    </message>
+    <message>
+      <source>Opening {name} …</source>
+      <translation>{name} wird geöffnet …</translation>
+    </message>
+    <message>
+      <source>{name} exists. Replace it?</source>
+      <translation>{name} gibt es schon. Ersetzen?</translation>
+    </message>
+    <message>
+      <source>Exported {n} tracks: {name}</source>
+      <translation>{n} Spuren geschrieben: {name}</translation>
+    </message>
+    <message>
+      <source>Nothing to import: </source>
+      <translation>Nichts einzulesen: </translation>
+    </message>
+    <message>
+      <source>{n} left out by their review</source>
+      <translation>{n} wegen ihrer Prüfung ausgelassen</translation>
+    </message>
+    <message>
+      <source>{n} visible points beside the picture lie at its border</source>
+      <translation>{n} sichtbare Punkte neben dem Bild liegen auf seinem Rand</translation>
     </message>
     <message>
       <source>Four steps</source>
@@ -2506,10 +2594,6 @@
     <message>
       <source>px at 256</source>
       <translation>px bei 256</translation>
-    </message>
-    <message>
-      <source>Tracks</source>
-      <translation>Spuren</translation>
     </message>
     <message>
       <source>Origin</source>
@@ -5690,6 +5774,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>geben Sie images, categories und annotations mit keypoints</translation>
     </message>
     <message>
+      <source>has two annotations of '{name}' in image {image} and nothing that says which is which</source>
+      <translation>hat zwei Annotationen von '{name}' in Bild {image} und nichts, was sie unterscheidet</translation>
+    </message>
+    <message>
+      <source>give each object a category or a track_id</source>
+      <translation>geben Sie jedem Objekt eine Kategorie oder eine track_id</translation>
+    </message>
+    <message>
       <source>has no tracks or no visibility</source>
       <translation>hat keine tracks oder keine visibility</translation>
     </message>
@@ -5718,28 +5810,20 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>hat object oder state in einer anderen Form</translation>
     </message>
     <message>
-      <source>holds no track of points</source>
-      <translation>enthält keine Spur von Punkten</translation>
+      <source>holds no track of points or skeletons</source>
+      <translation>enthält keine Spur von Punkten oder Skeletten</translation>
     </message>
     <message>
       <source>speaks of {total} frames</source>
       <translation>spricht von {total} Bildern</translation>
     </message>
     <message>
+      <source>'{text}' is no place</source>
+      <translation>'{text}' ist kein Ort</translation>
+    </message>
+    <message>
       <source>'{or}' is no whole number</source>
       <translation>„{or}“ ist keine ganze Zahl</translation>
-    </message>
-    <message>
-      <source>has {parts} points in one shape of frame {value}</source>
-      <translation>hat {parts} Punkte in einer Form von Bild {value}</translation>
-    </message>
-    <message>
-      <source>give one track per point</source>
-      <translation>geben Sie je Punkt eine Spur</translation>
-    </message>
-    <message>
-      <source>'{parts}' is no place</source>
-      <translation>„{parts}“ ist kein Ort</translation>
     </message>
     <message>
       <source>declares a document type, which could read other files</source>
@@ -6210,6 +6294,10 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Punkte {shape} und occluded {shape_2} passen nicht zusammen</translation>
     </message>
     <message>
+      <source>object has the shape {shape} for {points} tracks</source>
+      <translation>object hat die Form {shape} für {points} Spuren</translation>
+    </message>
+    <message>
       <source>is a pickle, which can run code when it is opened</source>
       <translation>ist ein Pickle, das beim Öffnen Code ausführen kann</translation>
     </message>
@@ -6250,12 +6338,28 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>fragen Sie sie, und setzen Sie die Einwilligung</translation>
     </message>
     <message>
+      <source>has {shape} frames, the clip has {frames}</source>
+      <translation>hat {shape} Bilder, der Clip hat {frames}</translation>
+    </message>
+    <message>
+      <source>export it from this clip</source>
+      <translation>exportieren Sie es aus diesem Clip</translation>
+    </message>
+    <message>
       <source>holds no tracks</source>
       <translation>enthält keine Spuren</translation>
     </message>
     <message>
       <source>give a file with tracks</source>
       <translation>geben Sie eine Datei mit Spuren</translation>
+    </message>
+    <message>
+      <source>has names of its tracks that do not fit them</source>
+      <translation>hat Namen von Spuren, die nicht zu ihnen passen</translation>
+    </message>
+    <message>
+      <source>export it again</source>
+      <translation>exportieren Sie es noch einmal</translation>
     </message>
     <message>
       <source>gave tracks {shape} for {shape_2}</source>
@@ -6474,8 +6578,20 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>die Maske der Änderung {number} fehlt</translation>
     </message>
     <message>
-      <source>has {shape} frames, the clip has {frames}</source>
-      <translation>hat {shape} Bilder, der Clip hat {frames}</translation>
+      <source>give another file</source>
+      <translation>geben Sie eine andere Datei an</translation>
+    </message>
+    <message>
+      <source>holds no tracks we know</source>
+      <translation>enthält keine Spuren, die wir kennen</translation>
+    </message>
+    <message>
+      <source>give one of {patterns}</source>
+      <translation>geben Sie eine von {patterns} an</translation>
+    </message>
+    <message>
+      <source>is no HDF5 file or is damaged</source>
+      <translation>ist keine HDF5-Datei oder beschädigt</translation>
     </message>
     <message>
       <source>is no export this program knows</source>

@@ -10,6 +10,7 @@ from hypothesis.extra import numpy as hnp
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store import npz, tapvid
+from genmojo_core.store.track_sheet import TrackSheet
 from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE, PointTracks
 
 
@@ -75,7 +76,7 @@ def test_a_visible_point_without_place_is_not_written(tmp_path):
     tracks = some_tracks()
     tracks.state[0, 1] = VISIBLE
     assert fails(npz.write_tracks, tracks, tmp_path / "t.npz") == "value"
-    assert fails(tapvid.write, tracks, tmp_path / "t.npz") == "value"
+    assert fails(tapvid.write, TrackSheet.of_tracks(tracks), tmp_path / "t.npz") == "value"
     assert not (tmp_path / "t.npz").exists()
 
 
@@ -87,20 +88,20 @@ def test_a_visible_point_without_place_is_not_written(tmp_path):
 def test_tapvid_is_x_over_width(tmp_path_factory, xy, state):
     """Points are x / W and y / H exactly (not W - 1), and come back to the pixel."""
     path = tmp_path_factory.mktemp("tapvid") / "t.npz"
-    tapvid.write(PointTracks(xy, state, np.zeros(3, np.int64), (80, 40)), path)
+    tapvid.write(TrackSheet.of_tracks(PointTracks(xy, state, np.zeros(3, np.int64), (80, 40))), path)
     with np.load(path) as stored:
         np.testing.assert_array_equal(stored["points"], xy / np.array([80, 40], np.float32))
         np.testing.assert_array_equal(stored["occluded"], state != VISIBLE)
-    found = tapvid.read(path)
+    found = tapvid.read(path).tracks
     np.testing.assert_allclose(found.xy, xy, rtol=1e-6)
     np.testing.assert_array_equal(found.state, state)
 
 
 def test_tapvid_clips_only_in_the_export(tmp_path):
-    tapvid.write(some_tracks(), tmp_path / "t.npz", video=np.zeros((3, 48, 64, 3), np.uint8))
+    tapvid.write(TrackSheet.of_tracks(some_tracks()), tmp_path / "t.npz", video=np.zeros((3, 48, 64, 3), np.uint8))
     with np.load(tmp_path / "t.npz") as stored:
         assert stored["points"].max() == 1.0
-    assert tapvid.read(tmp_path / "t.npz").state[0, 2] == OUT_OF_VIEW
+    assert tapvid.read(tmp_path / "t.npz").tracks.state[0, 2] == OUT_OF_VIEW
     np.savez(tmp_path / "u.npz", points=np.zeros((1, 2, 2)), occluded=np.zeros((1, 2), bool))
     assert fails(tapvid.read, tmp_path / "u.npz") == "schema"
-    assert tapvid.read(tmp_path / "u.npz", (10, 10)).size == (10, 10)
+    assert tapvid.read(tmp_path / "u.npz", (10, 10)).tracks.size == (10, 10)

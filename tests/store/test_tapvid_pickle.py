@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from genmojo_core.errors import GenmojoError
-from genmojo_core.store import tapvid_pickle
+from genmojo_core.store import tapvid, tapvid_pickle
 from genmojo_core.tracks.model import OCCLUDED, VISIBLE
 
 
@@ -33,10 +33,22 @@ def test_both_layouts_are_read_in_pixels_of_their_frames(tmp_path: Path, protoco
     for name, held in (("davis", {"goat": video(), "../cow": video()}), ("rgb", [video(), video()])):
         file = tmp_path / f"{name}.pkl"
         file.write_bytes(pickle.dumps(held, protocol))
-        tracks = tapvid_pickle.read(file, tmp_path / name, consent=True)
+        tracks = tapvid_pickle.read(file, tmp_path / name, consent=True).tracks
         assert tracks.xy[0].tolist() == [[20.0, 20.0], [40.0, 30.0]]
         assert tracks.state[0].tolist() == [VISIBLE, OCCLUDED]
         assert len(list((tmp_path / name).glob("*.npz"))) == 2
+
+
+def test_names_that_look_alike_stay_two_videos_and_jpeg_bytes_tell_their_size(tmp_path: Path) -> None:
+    import cv2
+
+    jpeg = cv2.imencode(".jpg", np.zeros((30, 50, 3), np.uint8))[1].tobytes()
+    held = {"a b": video(), "a/b": video() | {"video": np.array([jpeg, jpeg], object)}}
+    (tmp_path / "k.pkl").write_bytes(pickle.dumps(held))
+    files = tapvid_pickle.unpack(tmp_path / "k.pkl", tmp_path / "out", consent=True)
+    assert [file.stem for file in files] == ["a_b", "a_b_2"]
+    sizes = [tapvid.read(file).tracks.size for file in files]
+    assert sizes == [(80, 40), (50, 30)]
 
 
 def test_without_consent_nothing_is_opened(tmp_path: Path) -> None:
