@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QMainWindow, Q
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
-from genmojo_studio import notify, opening, theme
+from genmojo_studio import demo, notify, opening, theme
 from genmojo_studio.about import About
 from genmojo_studio.actions import ActionTable
 from genmojo_studio.assembly import Assembly
@@ -31,7 +31,6 @@ from genmojo_studio.watchdog import Watchdog
 from genmojo_studio.welcome import Welcome
 from genmojo_studio.worker import runs
 
-DEMO_CLIP = "crossing-shapes"
 _PRELOAD_MS = 100  # after the window came up
 _OPENING = "opening"  # the assembly of the clip that is being shown
 _TURN_MS = 20  # what others do because a clip was opened has its turn
@@ -223,7 +222,7 @@ class MainWindow(QMainWindow):
     def open_demo(self) -> None:
         """Makes the demo clip (the same bytes every time) and opens it."""
         self.header.say(tr("Making the demo clip …"), busy=True)
-        self.tasks.run(_write_demo, self.open_path, self._reading_failed)
+        self.tasks.run(demo.write, self.open_path, self._reading_failed)
 
     def showEvent(self, event: QShowEvent) -> None:
         """Once it is on the screen, what the first clip will need is loaded: opening it then takes no time."""
@@ -388,13 +387,3 @@ def _read_clip(path: Path, workspace: str) -> tuple[Clip, Path | None]:
     clip = folders.read(path, short_side=opening.SHARED_SHORT_SIDE)
     masks = project_path(path).with_suffix(hand_masks.SUFFIX)
     return (mask_file.with_masks(clip, masks), masks) if masks.exists() else (clip, None)
-
-
-def _write_demo() -> Path:
-    from genmojo_core.clip import synthetic, synthetic_files
-
-    folder = data_folder() / "demo" / DEMO_CLIP
-    if not (folder / "truth.npz").exists():
-        clip, truth = synthetic.generate(DEMO_CLIP)
-        synthetic_files.write(clip, truth, folder)
-    return folder

@@ -54,6 +54,8 @@ class PointsPage(QWidget):
         for name in TEMPLATES:
             self.template.addItem(tr(TITLES[name]), name)
         self.template.setAccessibleName(tr("Template of point names"))
+        self.template.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.template.setMinimumContentsLength(8)
         self.name = QLineEdit(maxLength=60)
         self.name.setPlaceholderText(tr("name of the point"))
         self.name.setAccessibleName(tr("Name of the active point"))

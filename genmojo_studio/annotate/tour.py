@@ -1,131 +1,60 @@
-"""A tour of the annotator on a clip made on the spot: a note beside each thing, with what to try."""
+"""A tour of the annotator on a clip made on the spot: a note beside each thing, which goes on when it was tried."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QPoint, QRect, Qt
+from PySide6.QtCore import QEvent, QPoint, QRect, Qt, QTimer
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from genmojo_studio.translate import mark, tr
+from genmojo_studio.annotate import steps
+from genmojo_studio.annotate.tour_clip import TourClip
+from genmojo_studio.annotate.tour_stops import STOPS, Now, Stop
+from genmojo_studio.translate import tr
 
 if TYPE_CHECKING:
     from genmojo_studio.annotate.workspace import AnnotateWorkspace
 
-
-@dataclass(frozen=True)
-class Stop:
-    """One stop: the step it belongs to (0..3), what it points at, title and text."""
-
-    step: int
-    target: Callable[[AnnotateWorkspace], QWidget]
-    title: str
-    text: str
+_GAP = 14  # pixels between the note and what it points at
+_PRAISE = 900  # ms for which "done" is read before the tour goes on
 
 
-STOPS = (
-    Stop(
-        0,
-        lambda w: w.bar,
-        mark("Four steps"),
-        mark(
-            "Objects, points, refining, review. Each says what it still lacks. You can "
-            "go back at any time: Alt+1 to Alt+4."
-        ),
-    ),
-    Stop(
-        0,
-        lambda w: w.objects.table,
-        mark("Objects"),
-        mark(
-            "Every mask is a candidate, with size, motion and how often it is "
-            "hidden. Select a row and press Choose, or leave it out with a reason."
-        ),
-    ),
-    Stop(
-        0,
-        lambda w: w.objects.cut,
-        mark("More objects"),
-        mark(
-            "No mask? Draw a box around the object, or click and scribble on "
-            "it, then Cut out. It is followed through the clip."
-        ),
-    ),
-    Stop(
-        1,
-        lambda w: w.canvas,
-        mark("Points"),
-        mark(
-            "Click five points on each object; the next one is chosen for you. Hold Z "
-            "for the loupe, Ctrl and an arrow nudge by a quarter of a pixel."
-        ),
-    ),
-    Stop(
-        1,
-        lambda w: w.points.meter,
-        mark("A good place"),
-        mark(
-            "A corner can be followed, an edge slides, a flat place is lost. "
-            "The bar shows it for the place under the mouse."
-        ),
-    ),
-    Stop(
-        1,
-        lambda w: w.points.seed,
-        mark("Seed"),
-        mark("A tracker proposes the rest. It never overwrites what you placed."),
-    ),
-    Stop(
-        2,
-        lambda w: w.play.sheet,
-        mark("Dope sheet"),
-        mark(
-            "Fill: visible. Hatch: occluded. Diamond: your key. Red: doubtful. "
-            "Click to go there, drag to paint a state."
-        ),
-    ),
-    Stop(
-        2,
-        lambda w: w.canvas,
-        mark("Refine"),
-        mark(
-            "Enter accepts the points of a frame and goes on. Drag a point that is off: "
-            "both segments beside it are solved again. Hold Q and step to paint occlusion."
-        ),
-    ),
-    Stop(
-        2,
-        lambda w: w.refine.queue,
-        mark("The queue"),
-        mark("N goes to the next most suspicious spot, and says why it is suspicious."),
-    ),
-    Stop(
-        3,
-        lambda w: w.review.approve_button,
-        mark("Review"),
-        mark(
-            "Somebody else approves each track, or returns it with a "
-            "reason. Everything is stored as you work; Ctrl+Z takes back anything, even tomorrow."
-        ),
-    ),
-)
+def begin(workspace: AnnotateWorkspace) -> None:
+    """Give the tour on the demo clip; what is open is closed, with everything stored, and comes back afterwards."""
+    if workspace.tour is not None:
+        workspace.tour.go(0)
+    elif workspace.tour_clip is None:
+        clip = workspace.tour_clip = TourClip(workspace)
+
+        def ready() -> None:
+            if workspace.tour is None and workspace.tour_clip is clip:
+                workspace.tour = Tour(workspace, clip)
+
+        clip.open(ready)
 
 
 class Tour(QFrame):
-    """The note that goes from stop to stop; Escape ends it."""
+    """The note that goes from stop to stop; Escape ends it.
 
-    def __init__(self, workspace: AnnotateWorkspace) -> None:
+    What a stop asks for is done by the person, or by the tour itself if Next is pressed instead.
+    """
+
+    def __init__(self, workspace: AnnotateWorkspace, clip: TourClip) -> None:
         super().__init__(workspace)
-        self._w, self.at = workspace, 0
+        self._w, self._clip, self.at = workspace, clip, 0
+        self._before: Now | None = None  # how things stood on arrival, None while nothing is asked
         self.setFrameShape(QFrame.Shape.StyledPanel)
         self.setAutoFillBackground(True)
         self.setFixedWidth(360)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.frame = _Frame(workspace)
         self.title, self.text, self.count = QLabel(), QLabel(wordWrap=True), QLabel()
+        self.ask = QLabel(wordWrap=True)
+        self._praise = QTimer(self, singleShot=True, interval=_PRAISE)
+        self._praise.timeout.connect(self._next)
+        self._place = QTimer(self, interval=100)  # the window, its panels and their contents may move
+        self._place.timeout.connect(self._put)
         self.setObjectName("tour")
         self.setStyleSheet(
             "#tour { background: palette(window); border: 2px solid rgb(255, 190, 60); border-radius: 6px; }"
@@ -142,38 +71,58 @@ class Tour(QFrame):
         for button in (self.end, self.back, self.next):
             row.addWidget(button)
         column = QVBoxLayout(self)
-        for label in (self.title, self.text):
+        for label in (self.title, self.text, self.ask):
             column.addWidget(label)
         column.addLayout(row)
         for before, after in ((self.next, self.back), (self.back, self.end)):
             QWidget.setTabOrder(before, after)
+        session = workspace.session
+        if session is not None:
+            for changed in (session.edited, session.selected, session.frame_changed):
+                changed.connect(self._look)
         self.go(0)
+        self._place.start()
 
     def go(self, at: int) -> None:
         """Show a stop."""
+        session = self._w.session
+        if session is None:
+            return
         self.at = min(max(at, 0), len(STOPS) - 1)
         stop: Stop = STOPS[self.at]
-        if self._w.step != stop.step:
-            self._w.show_step(stop.step)
+        self._praise.stop()
+        self._before = None
+        self._clip.prepare(session, stop.needs)
+        if steps.STEPS[self._w.step].name != stop.step:
+            self._w.show_step(steps.place_of(stop.step))
         self.title.setText(f"<b>{tr(stop.title)}</b>")
         self.text.setText(tr(stop.text))
+        self.ask.setText(f"<i>{tr(stop.ask)}</i>" if stop.ask else "")
+        self.ask.setVisible(bool(stop.ask))
         self.count.setText(f"{self.at + 1} / {len(STOPS)}")
         self.back.setEnabled(self.at > 0)
         self.next.setText(tr("Next") if self.at < len(STOPS) - 1 else tr("Done"))
-        target = stop.target(self._w)
-        area = QRect(target.mapTo(self._w, QPoint(0, 0)), target.size())
+        if stop.done is not None:
+            self._before = Now.of(session)
         self.adjustSize()
-        self.move(self._beside(area))
-        self.frame.show_around(area)
         self.show()
-        self.raise_()
-        self.next.setFocus()
+        self._put()
+        (stop.target(self._w) if stop.ask else self.next).setFocus()
 
     def finish(self) -> None:
-        """End the tour."""
+        """End the tour: its clip goes, what was open before comes back."""
+        before = self._clip.before
+        self._w.close_clip()  # which takes this note away
+        for _ in self._w.opening(before) if before is not None and before.exists() else ():
+            continue
+
+    def vanish(self) -> None:
+        """Take the note away."""
+        self._w.tour = None
+        self._place.stop()
+        self._praise.stop()
         self.frame.deleteLater()
         self.deleteLater()
-        self._w.canvas.setFocus()
 
     def event(self, event: QEvent) -> bool:
         """Escape is the tour's own key while it has the keyboard."""
@@ -196,14 +145,50 @@ class Tour(QFrame):
     def _back(self) -> None:
         self.go(self.at - 1)
 
-    def _beside(self, area: QRect) -> QPoint:
-        """Left of the thing if there is room, else right, below, above, or inside its corner; always in the window."""
-        gap, w, h = 14, self.width(), self.sizeHint().height()
-        room = self._w.rect()
-        places = [QPoint(area.left() - w - gap, area.top()), QPoint(area.right() + gap, area.top()),
-                  QPoint(area.left(), area.bottom() + gap), QPoint(area.left(), area.top() - h - gap)]  # fmt: skip
-        found = next((p for p in places if room.contains(QRect(p.x(), p.y(), w, h))), area.topLeft() + QPoint(gap, gap))
-        return QPoint(min(max(found.x(), 4), room.width() - w - 4), min(max(found.y(), 4), room.height() - h - 4))
+    def _look(self, _what: object = None) -> None:
+        """Whether what was asked for has been done."""
+        session, done = self._w.session, STOPS[self.at].done
+        if self._before is None or session is None or done is None or self._praise.isActive():
+            return
+        if done(self._before, Now.of(session)):
+            self.ask.setText(f"<b>✓ {tr('Done.')}</b>")
+            self._praise.start()
+
+    def _put(self) -> None:
+        """Beside what the note is about, wherever that is now; in the middle if it is hidden."""
+        target = STOPS[self.at].target(self._w)
+        area = QRect(target.mapTo(self._w, QPoint(0, 0)), target.size()).intersected(self._w.rect())
+        shown = target.isVisibleTo(self._w) and not area.isEmpty()
+        self.resize(self.width(), self.sizeHint().height())
+        place = (
+            self._beside(area, self._dock_of(target) or area)
+            if shown
+            else self._w.rect().center() - self.rect().center()
+        )
+        if place != self.pos():
+            self.move(place)
+        self.frame.show_around(area if shown else None)
+        self.raise_()
+
+    def _dock_of(self, target: QWidget) -> QRect | None:
+        """The panel that a thing is in: what belongs to it there is not to be covered either."""
+        for dock in self._w.docks.values():
+            if dock.isAncestorOf(target) and not dock.isFloating():
+                return dock.geometry()
+        return None
+
+    def _beside(self, area: QRect, around: QRect) -> QPoint:
+        """Left of what is around the thing if there is room, else right; else below the thing itself, above it, or
+        inside its corner. Always in the window."""
+        w, h, room = self.width(), self.height(), self._w.rect()
+
+        def held(x: int, y: int) -> QPoint:
+            return QPoint(min(max(x, 4), room.width() - w - 4), min(max(y, 4), room.height() - h - 4))
+
+        places = [held(around.left() - w - _GAP, area.top()), held(around.right() + _GAP, area.top()),
+                  held(area.left(), area.bottom() + _GAP), held(area.left(), area.top() - h - _GAP)]  # fmt: skip
+        free = (p for p in places if not QRect(p.x(), p.y(), w, h).intersects(area))
+        return next(free, held(area.left() + _GAP, area.top() + _GAP))
 
 
 class _Frame(QWidget):
@@ -213,8 +198,11 @@ class _Frame(QWidget):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
 
-    def show_around(self, area: QRect) -> None:
-        """Move around an area of the parent."""
+    def show_around(self, area: QRect | None) -> None:
+        """Move around an area of the parent; None hides it."""
+        if area is None:
+            self.hide()
+            return
         self.setGeometry(area.adjusted(-4, -4, 4, 4))
         self.show()
         self.raise_()

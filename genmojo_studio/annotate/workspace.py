@@ -19,7 +19,6 @@ from PySide6.QtWidgets import (
     QVBoxLayout,
     QWidget,
 )
-from shiboken6 import isValid
 
 from genmojo_core.errors import GenmojoError
 from genmojo_studio import notify, theme
@@ -38,7 +37,8 @@ from genmojo_studio.annotate.review_page import ReviewPage
 from genmojo_studio.annotate.screen import Screen
 from genmojo_studio.annotate.session import Session, open_session
 from genmojo_studio.annotate.strip import Strip
-from genmojo_studio.annotate.tour import Tour
+from genmojo_studio.annotate.tour import Tour, begin
+from genmojo_studio.annotate.tour_clip import TourClip
 from genmojo_studio.annotate.trackability import measure
 from genmojo_studio.annotate.work import Work
 from genmojo_studio.panels import Panels
@@ -80,7 +80,7 @@ class AnnotateWorkspace(QMainWindow):
         self._opening: Iterator[None] = iter(())
         self.hands: Hands | None = None
         self.tour: Tour | None = None
-        self._tour_waits = False
+        self.tour_clip: TourClip | None = None
         self.step = 0
         self._low = False  # whether the window is so low that the frame comes first
         self.setDockNestingEnabled(True)
@@ -118,7 +118,7 @@ class AnnotateWorkspace(QMainWindow):
         Faults are told.
         """
         try:
-            session = open_session(self.state, path, self.settings.text("person") or _person())
+            session = open_session(self.state, path, self.person())
         except GenmojoError as error:
             notify.tell(error, self)
             return
@@ -186,11 +186,10 @@ class AnnotateWorkspace(QMainWindow):
         give_back(self.pages, self.canvas)
         self._theme_changed()
         self.show_step(self._first_open_step())
+        QTimer.singleShot(0, self.restore_layout)  # again, once the new panels have been laid out
         self.screen_link.show_frame(session.frame)
         self.bar.saved.setText(tr("read only") if session.project.read_only else tr("saved"))
         self.canvas.setFocus()
-        if self._tour_waits:
-            QTimer.singleShot(0, self.start_tour)
 
     def close_clip(self) -> None:
         """Store and let go of the clip that is open; one that is half open is opened first."""
@@ -209,6 +208,12 @@ class AnnotateWorkspace(QMainWindow):
         self.setCentralWidget(_hint(tr("Open a clip to annotate it (Ctrl+O).")))
         session.close()
         session.deleteLater()
+        if self.tour_clip is not None and self.tour_clip.session is session:
+            self._end_tour()
+
+    def person(self) -> str:
+        """Who is named in projects."""
+        return self.settings.text("person") or _person()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """A window that becomes low, or high again, takes the layout that belongs to it."""
@@ -224,6 +229,7 @@ class AnnotateWorkspace(QMainWindow):
     def closeEvent(self, event: QCloseEvent) -> None:
         """Nothing is asked: everything is stored already."""
         self.close_clip()
+        self._end_tour()
         event.accept()
 
     # ---- steps and layout
@@ -306,12 +312,16 @@ class AnnotateWorkspace(QMainWindow):
         """Move the keyboard on (-1: back): frame, steps, buttons, information, video play, and around."""
         page = self._by_name[steps.STEPS[self.step].page]
         panels: list[QWidget] = [self.canvas, self.bar, self.buttons, page, self.play]
+        if self.tour is not None:
+            panels.append(self.tour)
         stops = [panel for panel in panels if panel.isVisible()]
         focus = self.focusWidget()
         holding = (n for n, w in enumerate(stops) if focus is not None and (w is focus or w.isAncestorOf(focus)))
         at = next(holding, -1)
         target = stops[(at + step) % len(stops)]
-        if target is not self.canvas:
+        if target is self.tour:
+            target = self.tour.next
+        elif target is not self.canvas:
             inside = [c for c in target.findChildren(QWidget) if c.isVisible() and c.isEnabled()
                       and c.focusPolicy() & Qt.FocusPolicy.TabFocus]  # fmt: skip
             places = [c.mapTo(self, QPoint(0, 0)) for c in inside]
@@ -324,15 +334,15 @@ class AnnotateWorkspace(QMainWindow):
         self.canvas.setFocus(Qt.FocusReason.TabFocusReason)
 
     def start_tour(self) -> None:
-        """Explain the annotator on the clip that is open, or on one made on the spot."""
-        if self.session is None:
-            self._tour_waits = True
-            self.table.trigger("file.demo")
-            return
-        self._tour_waits = False
-        if self.tour is not None and isValid(self.tour):
-            self.tour.finish()
-        self.tour = Tour(self)
+        """Explain the annotator on a clip made on the spot."""
+        begin(self)
+
+    def _end_tour(self) -> None:
+        clip, self.tour_clip = self.tour_clip, None
+        if self.tour is not None:
+            self.tour.vanish()
+        if clip is not None:
+            clip.remove()
 
     def say(self, sentence: str) -> None:
         """A sentence in the status line of the window."""

@@ -1404,6 +1404,22 @@
       <translation>{n} sichtbare Punkte neben dem Bild liegen auf seinem Rand</translation>
     </message>
     <message>
+      <source>End the tour</source>
+      <translation>Rundgang beenden</translation>
+    </message>
+    <message>
+      <source>Back</source>
+      <translation>Zurück</translation>
+    </message>
+    <message>
+      <source>Next</source>
+      <translation>Weiter</translation>
+    </message>
+    <message>
+      <source>Done</source>
+      <translation>Fertig</translation>
+    </message>
+    <message>
       <source>Four steps</source>
       <translation>Vier Schritte</translation>
     </message>
@@ -1432,6 +1448,10 @@
       <translation>Klicken Sie fünf Punkte auf jedem Objekt; der nächste wird von selbst gewählt. Z halten zeigt die Lupe, Strg und ein Pfeil rücken um ein Viertelpixel.</translation>
     </message>
     <message>
+      <source>Try it: click on a corner of an object.</source>
+      <translation>Probieren Sie es: auf eine Ecke eines Objekts klicken.</translation>
+    </message>
+    <message>
       <source>A good place</source>
       <translation>Eine gute Stelle</translation>
     </message>
@@ -1444,12 +1464,24 @@
       <translation>Ein Verfolger schlägt den Rest vor. Er überschreibt nie, was Sie gesetzt haben.</translation>
     </message>
     <message>
+      <source>Try it: press Seed tracks, then Start. It takes some seconds.</source>
+      <translation>Probieren Sie es: „Spuren vorschlagen“ drücken, dann „Start“. Es dauert einige Sekunden.</translation>
+    </message>
+    <message>
       <source>Fill: visible. Hatch: occluded. Diamond: your key. Red: doubtful. Click to go there, drag to paint a state.</source>
       <translation>Fläche: sichtbar. Schraffur: verdeckt. Raute: Ihr Schlüssel. Rot: zweifelhaft. Klicken geht dorthin, Ziehen malt einen Zustand.</translation>
     </message>
     <message>
+      <source>Try it: click on another frame.</source>
+      <translation>Probieren Sie es: auf ein anderes Bild klicken.</translation>
+    </message>
+    <message>
       <source>Enter accepts the points of a frame and goes on. Drag a point that is off: both segments beside it are solved again. Hold Q and step to paint occlusion.</source>
       <translation>Enter bestätigt die Punkte eines Bildes und geht weiter. Ziehen Sie einen falschen Punkt: Beide Abschnitte daneben werden neu gelöst. Q halten und weitergehen malt Verdeckung.</translation>
+    </message>
+    <message>
+      <source>Try it: press Enter, or drag a point.</source>
+      <translation>Probieren Sie es: Eingabe drücken oder einen Punkt ziehen.</translation>
     </message>
     <message>
       <source>The queue</source>
@@ -1460,24 +1492,20 @@
       <translation>N geht zur nächsten verdächtigen Stelle und sagt, warum sie verdächtig ist.</translation>
     </message>
     <message>
+      <source>Try it: press N.</source>
+      <translation>Probieren Sie es: N drücken.</translation>
+    </message>
+    <message>
       <source>Somebody else approves each track, or returns it with a reason. Everything is stored as you work; Ctrl+Z takes back anything, even tomorrow.</source>
       <translation>Jemand anders gibt jede Spur frei oder mit einem Grund zurück. Alles wird beim Arbeiten gespeichert; Strg+Z nimmt alles zurück, auch morgen.</translation>
     </message>
     <message>
-      <source>End the tour</source>
-      <translation>Rundgang beenden</translation>
+      <source>Try it: approve a track.</source>
+      <translation>Probieren Sie es: eine Spur freigeben.</translation>
     </message>
     <message>
-      <source>Back</source>
-      <translation>Zurück</translation>
-    </message>
-    <message>
-      <source>Next</source>
-      <translation>Weiter</translation>
-    </message>
-    <message>
-      <source>Done</source>
-      <translation>Fertig</translation>
+      <source>Try it: choose an object.</source>
+      <translation>Probieren Sie es: ein Objekt wählen.</translation>
     </message>
     <message>
       <source>none</source>

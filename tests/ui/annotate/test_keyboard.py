@@ -181,11 +181,16 @@ def test_the_merge_and_its_keys(workspace, qtbot):
 def test_the_tour(workspace, qtbot):
     choose_all(workspace)
     workspace.start_tour()
+    qtbot.waitUntil(lambda: workspace.tour is not None, timeout=120_000)
     note = workspace.tour.geometry()
     corner = workspace.grab().toImage().pixelColor(note.left() + 8, note.bottom() - 8)
     assert corner == workspace.tour.palette().window().color(), "what lies below must not shine through"
     workspace.tour.go(1)
     way, unseen = walk(workspace.tour.next, workspace.canvas)
     assert set(controls(workspace.tour)) <= set(way) and not said(unseen)
+    workspace.canvas.setFocus()
+    workspace.table.trigger("annotate.move.panel_back")
+    assert QApplication.focusWidget() is workspace.tour.next, "F6 comes to the note"
+    kind = type(workspace.tour)
     QTest.keyClick(workspace.tour.next, Qt.Key.Key_Escape)
-    qtbot.waitUntil(lambda: not workspace.findChildren(type(workspace.tour)), timeout=60_000)
+    qtbot.waitUntil(lambda: not workspace.findChildren(kind), timeout=60_000)

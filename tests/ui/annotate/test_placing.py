@@ -262,7 +262,7 @@ def test_the_list_of_steps_is_data(qapp, qtbot, monkeypatch, clip_folder, tmp_pa
     workspace.close()
 
 
-def test_a_layout_outlives_a_window_that_is_low_for_a_while(workspace, qtbot):
+def test_layouts_outlive_a_window_that_is_low_for_a_while_and_the_clip(workspace, qtbot, clip_folder, tmp_path):
     workspace.resize(1400, 900)
     workspace.show_step(steps.place_of("points"))
     workspace.docks["buttons"].hide()
@@ -271,3 +271,14 @@ def test_a_layout_outlives_a_window_that_is_low_for_a_while(workspace, qtbot):
         qtbot.waitUntil(lambda low=low: workspace._low == low, timeout=60_000)
         qtbot.waitUntil(lambda low=low: workspace.docks["buttons"].isVisible() == low, timeout=60_000)
     assert workspace.docks["information"].isVisible()
+    workspace.show_step(steps.place_of("objects"))
+    widths = {name: 200 if name == "buttons" else 300 for name in ("buttons", "information")}
+    workspace.resizeDocks([workspace.docks[n] for n in widths], list(widths.values()), Qt.Orientation.Horizontal)
+    qtbot.waitUntil(lambda: workspace.docks["information"].width() == 300, timeout=60_000)
+    workspace.save_layout()
+    for project in ("b.genmojo", "c.genmojo"):
+        workspace.close_clip()
+        qtbot.wait(1)  # the panels of the clip before go
+        workspace.open_with(open_session(workspace.state, clip_folder, "Ada", tmp_path / project))
+        qtbot.waitUntil(lambda: bool(workspace.objects.figures), timeout=60_000)
+        qtbot.waitUntil(lambda: {name: workspace.docks[name].width() for name in widths} == widths, timeout=60_000)
