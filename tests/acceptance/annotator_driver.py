@@ -325,7 +325,8 @@ def drive(source: Path, scene: Path | None, shots: Path | None, seed: int) -> di
     }  # fmt: skip
     if len(report.errors):
         figures |= {"error": float(np.median(report.errors)), "p90": float(np.quantile(report.errors, 0.9)),
-                    "errors": report.errors.round(3).tolist(), "oa": report.right_states, "error_per_track": report.per_track.tolist(),
+                    "errors": report.errors.round(3).tolist(),
+                    "oa": report.right_states, "error_per_track": report.per_track.tolist(),
                     "solve_seconds": float(np.median(report.solve_seconds)),
                     "solve_wait": float(np.median(hands.waits))}  # fmt: skip
     return figures
