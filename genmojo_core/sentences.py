@@ -87,6 +87,7 @@ SENTENCES: dict[str, str] = {
     "set_objects": "Set objects",
     "candidates": "Candidates from the masks",
     "cut_out": "Cut out {name}",
+    "correct_mask": "New mask for {name}",
     "choose_object": "Choose {name}",
     "reject_object": "Reject {name}",
     "name_object": "Name {name}",

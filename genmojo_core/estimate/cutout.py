@@ -9,6 +9,7 @@ import numpy as np
 
 _BINS = 12  # per colour axis of the histograms
 _ROUNDS = 3
+_NEAR, _BRUSH = 45, 120  # shares of the short side: so near to a stroke all is likely to belong to it, or surely
 _LEAST_SHARE = 0.04  # of the box: a smaller cut has failed and the box's inscribed ellipse stands in
 _ALIKE = 0.35  # histogram overlap under which it is not the same object
 
@@ -56,6 +57,34 @@ def cut_in_box(
         found = ellipse > 0
         found[(y0 + y1) // 2, (x0 + x1) // 2] = True
     return _largest_parts(found | inside)
+
+
+def cut_part(
+    frame: np.ndarray,  # (H, W, 3) uint8
+    stroke: np.ndarray,  # (H, W) bool, on the part
+    beside: np.ndarray,  # (H, W) bool, surely not of it
+    within: np.ndarray,  # (H, W) bool, where it may be
+) -> np.ndarray:  # (H, W) bool
+    """The part of `within` that strokes lie on: what looks like their surroundings rather than like the rest."""
+    stroke = stroke & within
+    if not stroke.any():
+        return stroke
+    near = _widened(stroke, _NEAR) & within
+    stroke = _widened(stroke, _BRUSH) & within & ~beside
+    look = Look(_histogram(frame, near), _histogram(frame, within & ~near), frame[:0, :0], stroke[:0, :0])
+    likely = near | (own_colour(frame, look) > 0.5)
+    trimap = np.where(likely, cv2.GC_PR_FGD, cv2.GC_PR_BGD).astype(np.uint8)
+    trimap[~within | beside] = cv2.GC_BGD
+    trimap[stroke] = cv2.GC_FGD
+    found = _grabcut(frame, trimap, _ROUNDS) & within
+    _, parts = cv2.connectedComponents(found.astype(np.uint8))
+    return np.isin(parts, np.unique(parts[stroke & found])) & found
+
+
+def _widened(stroke: np.ndarray, share: int) -> np.ndarray:  # (H, W) bool
+    """Strokes made wider on either side by a share of the short side."""
+    side = 2 * max(1, min(stroke.shape) // share) + 1
+    return cv2.dilate(stroke.astype(np.uint8), np.ones((side, side), np.uint8)) > 0
 
 
 def learn_look(frame: np.ndarray, mask: np.ndarray) -> Look:  # (H, W, 3) uint8, (H, W) bool

@@ -7,7 +7,7 @@ shrinks away or changes colour is taken for hidden; it is looked for by its pict
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -53,6 +53,15 @@ Prompt = Box | Scribble
 
 
 @dataclass(frozen=True)
+class Drawing:
+    """Prompts of one object in one frame: box (4,) x0, y0, x1, y1 or None, pixels (H, W) bool on it and beside it."""
+
+    box: np.ndarray | None
+    inside: np.ndarray
+    outside: np.ndarray
+
+
+@dataclass(frozen=True)
 class Helpers:
     """What following an object may use: flow of the frames, a mask model or None, a hearer of progress 0..1."""
 
@@ -88,14 +97,32 @@ def seed_masks(
     frames: np.ndarray, prompts: Sequence[Prompt], source_size: tuple[int, int], model: MaskModel | None = None
 ) -> dict[tuple[int, int], np.ndarray]:
     """The mask (H, W) bool of each prompted (frame, label); prompts of one frame and label are cut together."""
+    seeds = {}
+    for (frame, label), drawing in drawings(frames, prompts, source_size).items():
+        if model is not None and drawing.box is not None:
+            found = model.segment(frames[frame], drawing.box)
+            if found.any():
+                seeds[frame, label] = found
+                continue
+        seeds[frame, label] = cut_in_box(frames[frame], drawing.box, drawing.inside, drawing.outside)
+    return seeds
+
+
+def drawings(
+    frames: np.ndarray, prompts: Sequence[Prompt], source_size: tuple[int, int]
+) -> dict[tuple[int, int], Drawing]:
+    """What was drawn for each (frame, label), at the frames' size.
+
+    Raises GenmojoError("argument") for a prompt outside the clip or the frame, or without area.
+    """
     h, w = frames.shape[1:3]
     scale = np.array([w / source_size[0], h / source_size[1]])
     groups: dict[tuple[int, int], list[Prompt]] = {}
     for prompt in prompts:
         _check(prompt, len(frames), source_size)
         groups.setdefault((prompt.frame, prompt.label), []).append(prompt)
-    seeds = {}
-    for (frame, label), group in groups.items():
+    found = {}
+    for key, group in groups.items():
         strokes = {True: np.zeros((h, w), bool), False: np.zeros((h, w), bool)}
         box = None
         for prompt in group:
@@ -104,13 +131,8 @@ def seed_masks(
                 box = np.concatenate([np.floor(corners[0]), np.ceil(corners[1])])
             else:
                 strokes[prompt.foreground] |= _stroke(np.asarray(prompt.points) * scale, (h, w))
-        if model is not None and box is not None:
-            found = model.segment(frames[frame], box)
-            if found.any():
-                seeds[frame, label] = found
-                continue
-        seeds[frame, label] = cut_in_box(frames[frame], box, strokes[True], strokes[False])
-    return seeds
+        found[key] = Drawing(box, strokes[True], strokes[False])
+    return found
 
 
 def follow(frames: np.ndarray, seeds: dict[int, np.ndarray], helpers: Helpers) -> np.ndarray:
@@ -122,21 +144,34 @@ def follow(frames: np.ndarray, seeds: dict[int, np.ndarray], helpers: Helpers) -
     for start, mask in seeds.items():
         total[start] += mask
         weight[start] += 1.0
-        look = learn_look(frames[start], mask)
         for step in (1, -1):
-            current, usual, last = mask, float(mask.sum()), mask
-            f = start + step
-            while 0 <= f < len(frames) and f not in seeds:
-                prior = _prior(frames[f - step], frames[f], current, _between(helpers.flows, f, step))
-                current = _carry_on(frames[f], current, last, prior, look, usual)
-                current = _refined(frames[f], current, helpers.model)
-                if current.any():
-                    last, usual = current, 0.95 * usual + 0.05 * float(current.sum())
+            for f, current in carried(frames, start, mask, step, helpers):
+                if f in seeds:
+                    break
                 share = 1.0 / (1.0 + abs(f - start))
                 total[f] += share * current
                 weight[f] += share
-                f += step
     return (total / np.maximum(weight, 1e-6)[:, None, None]).astype(np.float16)
+
+
+def carried(
+    frames: np.ndarray, start: int, mask: np.ndarray, step: int, helpers: Helpers
+) -> Iterator[tuple[int, np.ndarray]]:
+    """An object's mask (H, W) bool, not empty, of frame `start` in the frames after it (step 1) or before it (-1).
+
+    Yields frame and mask (H, W) bool, empty where the object is hidden, up to the end of the clip.
+    """
+    look = learn_look(frames[start], mask)
+    current, usual, last = mask, float(mask.sum()), mask
+    f = start + step
+    while 0 <= f < len(frames):
+        prior = _prior(frames[f - step], frames[f], current, _between(helpers.flows, f, step))
+        current = _carry_on(frames[f], current, last, prior, look, usual)
+        current = _refined(frames[f], current, helpers.model)
+        if current.any():
+            last, usual = current, 0.95 * usual + 0.05 * float(current.sum())
+        yield f, current
+        f += step
 
 
 def _between(flows: SequenceFlow, f: int, step: int) -> tuple[np.ndarray, np.ndarray]:

@@ -10,8 +10,8 @@ from genmojo_studio.annotate import steps
 
 WORKSPACE = "annotate"
 KEYED = 9  # points of an object, and objects, that have a key of their own; Tab and the tree reach all
-MENUS = {"move": "Go", "point": "Points", "track": "Tracks", "view": "View", "edit": "Edit", "review": "Review",
-         "file": "File", "step": "Go/Step", "panel": "View/Panels"}  # fmt: skip
+MENUS = {"move": "Go", "object": "Objects", "point": "Points", "track": "Tracks", "view": "View", "edit": "Edit",
+         "review": "Review", "file": "File", "step": "Go/Step", "panel": "View/Panels"}  # fmt: skip
 
 
 def _action(name: str, text: str, keys: str = "", help_: str = "", **more: object) -> Action:
@@ -52,6 +52,19 @@ _MOVE = (
     _action("move.panel", "Next panel", "F6", "Moves the keyboard to the next panel."),
     _action("move.panel_back", "Previous panel", "Shift+F6", "Moves the keyboard to the panel before."),
     _action("move.frame", "Back to the frame", "Esc", "Gives the keyboard to the frame and puts drawing tools away."),
+)  # fmt: skip
+
+_OBJECT = (
+    _action("object.choose", "Choose the object", "W", "Annotates the selected object."),
+    _action("object.reject", "Leave the object out", "Shift+W", "For the reason that stands in the panel."),
+    _action("object.earlier", "Earlier in the order", "Ctrl+PgUp", "The object and its colour come before others."),
+    _action("object.later", "Later in the order", "Ctrl+PgDown", "The object comes after others."),
+    _action("object.box", "Draw a box", "Ctrl+Shift+B", "A rectangle round the object.", separator=True),
+    _action("object.stroke", "Draw on the object", "Ctrl+D", "Strokes or clicks on what belongs to it."),
+    _action("object.not_this", "Draw beside the object", "Ctrl+Shift+D", "Strokes on what is not part of it."),
+    _action("object.cut", "Cut out", "C", "Makes a mask of what was drawn, and follows it through the clip.",
+            cvat="Shift+C"),
+    _action("object.follow", "Follow the mask through the clip", "", "Into frames for which the clip has no masks."),
 )  # fmt: skip
 
 _POINT = (
@@ -138,7 +151,7 @@ _REST = (
             separator=True),
     _action("file.export", "Export tracks…", "Ctrl+E", "The same formats."),
     _action("file.tour", "Tour of the annotator", "", "Ten steps on a clip made on the spot."),
-    _action("step.edit_mask", "Draw the selected mask anew", "", "Step 1; what is drawn replaces the object's mask."),
+    _action("step.edit_mask", "Correct the selected mask", "", "Step 1; what is drawn puts the object's mask right."),
     _action("panel.buttons", "Buttons", "", "Shows or hides this panel.", checkable=True),
     _action("panel.information", "Information", "", "Shows or hides this panel.", checkable=True),
     _action("panel.play", "Video play", "", "Shows or hides this panel.", checkable=True),
@@ -153,4 +166,4 @@ def step_actions() -> tuple[Action, ...]:
     )
 
 
-ACTIONS: tuple[Action, ...] = (*_MOVE, *_POINT, *_TRACK, *_VIEW, *_REST, *step_actions())
+ACTIONS: tuple[Action, ...] = (*_MOVE, *_OBJECT, *_POINT, *_TRACK, *_VIEW, *_REST, *step_actions())

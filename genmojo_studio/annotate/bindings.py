@@ -14,6 +14,7 @@ from genmojo_studio.annotate import steps, verbs
 from genmojo_studio.annotate.actions import KEYED
 from genmojo_studio.annotate.dialogs import Dialogs
 from genmojo_studio.annotate.going import Going
+from genmojo_studio.annotate.object_verbs import ObjectVerbs
 from genmojo_studio.annotate.placing import Placing
 from genmojo_studio.annotate.session import TRAILS
 from genmojo_studio.translate import decimal, tr
@@ -29,7 +30,7 @@ def bind(workspace: AnnotateWorkspace) -> None:
     _connect(workspace)
     hands = Hands(workspace)
     workspace.hands = hands
-    for name, verb in {**hands.going.table(), **hands.points(), **hands.tracks(), **hands.rest()}.items():
+    for name, verb in hands.table().items():
         workspace.table.bind(f"annotate.{name}", verb, hands.enabled(name), hands.checked(name))
     held = workspace.held
     for name, state in verbs.STATES.items():
@@ -58,10 +59,10 @@ def _connect(w: AnnotateWorkspace) -> None:
     work.spots_ready.connect(w.refine.set_spots)
     work.spots_ready.connect(w.play.sheet.refresh)
     masks.cutting.connect(w.objects.show_cutting)
-    masks.tool_changed.connect(w.use_tool)
-    w.objects.tool_wanted.connect(masks.use_tool)
+    masks.sketched.connect(w.objects.show_sketched)
+    w.objects.tool_wanted.connect(w.use_tool)
     w.objects.cut_wanted.connect(masks.cut)
-    masks.replaces = w.objects.replaced
+    masks.target = w.objects.target
     canvas.boxed.connect(masks.add_box)
     canvas.stroked.connect(masks.add_stroke)
     w.bar.stride_changed.connect(w.set_stride)
@@ -75,6 +76,7 @@ class Hands:
             raise RuntimeError("a session is needed before its actions can be bound")
         self._w, self._s = workspace, workspace.session
         self.going = Going(workspace.session, workspace.play.player)
+        self.objects = ObjectVerbs(workspace)
         self.placing = Placing(workspace, self.going)
         self.dialogs = Dialogs(workspace)
         w = workspace
@@ -91,6 +93,10 @@ class Hands:
         w.review.log_wanted.connect(self.dialogs.log)
 
     # ---- tables
+
+    def table(self) -> dict[str, Verb]:
+        """All verbs by the names of their actions."""
+        return self.going.table() | self.objects.table() | self.points() | self.tracks() | self.rest()
 
     def points(self) -> dict[str, Verb]:
         """Verbs of points."""
@@ -140,7 +146,7 @@ class Hands:
 
     def rest(self) -> dict[str, Verb]:
         """Verbs of the view, of history, files and steps."""
-        s, w = self._s, self._w
+        w = self._w
         return {
             "view.fit": w.canvas.fit,
             "view.one": w.canvas.one_to_one,
@@ -154,8 +160,6 @@ class Hands:
             "view.strip": self._strip,
             "view.reticle_larger": lambda: w.canvas.set_reticle(w.canvas.reticle + 4),
             "view.reticle_smaller": lambda: w.canvas.set_reticle(w.canvas.reticle - 4),
-            "edit.undo": s.undo,
-            "edit.redo": s.redo,
             "edit.checkpoint": self.dialogs.checkpoint,
             "edit.history": self.dialogs.history,
             "file.new_clip": lambda: w.table.trigger("file.open_clip"),
@@ -167,16 +171,7 @@ class Hands:
             "move.frame": w.back_to_frame,
             **{f"panel.{name}": partial(self._panel, name) for name in w.docks},
             **{f"step.{n + 1}": partial(w.show_step, n) for n in range(len(steps.STEPS))},
-            "step.edit_mask": self.edit_mask,
         }
-
-    def edit_mask(self) -> None:
-        """The step of objects, the selected object's mask to be drawn anew."""
-        self._w.show_step(steps.place_of("objects"))
-        selected = self._s.state.selected_object
-        if selected:
-            self._s.select(int(selected), 1)
-            self._w.objects.instead.setChecked(True)
 
     def enabled(self, name: str) -> Callable[[], bool]:
         """When an action is possible."""
@@ -184,6 +179,8 @@ class Hands:
         needs_track = name.startswith(("track.", "review.fix", "review.approve", "review.reject", "point.key",
                                        "point.delete", "point.uncertain", "move.key",
                                        "move.bisect"))  # fmt: skip
+        if name.startswith("object."):
+            return lambda: self._w.session is s and s.sketching
         if name == "track.seed":
             return lambda: self._w.session is s and bool(s.annotation.tracks)
         if name.startswith(("point.nudge", "point.push")):

@@ -208,8 +208,7 @@ class Canvas(QWidget):
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawEllipse(at, 9, 9)
             painter.drawLine(self._mouse, at)
-        colour = QColor(255, 120, 120) if self.tool == Tool.SCRIBBLE_OUT else QColor(120, 220, 255)
-        painter.setPen(QPen(colour, 2))
+        painter.setPen(overlay.sketch_pen(on=self.tool != Tool.SCRIBBLE_OUT))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         if self.tool == Tool.BOX and self._press is not None:
             painter.drawRect(QRectF(self._press, self._mouse).normalized())

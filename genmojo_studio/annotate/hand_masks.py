@@ -17,7 +17,8 @@ from genmojo_core.clip import mask_file, resize
 from genmojo_core.clip.clip import Channel, Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.estimate.flow import sequence_flow
-from genmojo_core.estimate.masks import Box, Helpers, Prompt, Scribble, masks_from_prompts
+from genmojo_core.estimate.mask_correction import correct_masks
+from genmojo_core.estimate.masks import Box, Helpers, Prompt, Scribble, follow, masks_from_prompts
 from genmojo_core.store.atomic import write_bytes
 from genmojo_core.store.project import Project
 
@@ -39,10 +40,39 @@ def cut_out(clip: Clip, prompts: list[Prompt], progress: Progress | None = None)
 
     Raises GenmojoError("argument") for a prompt that cannot be meant.
     """
+    for frame in sorted({prompt.frame for prompt in prompts}):
+        own = [p for p in prompts if p.frame == frame]
+        if not any(isinstance(p, Box) or p.foreground for p in own):
+            raise GenmojoError("argument", f"frame {frame} shows only what is not part of the object", clip.name,
+                               "draw on the object too, or a box round it")  # fmt: skip
     alike = [replace(prompt, label=1) for prompt in prompts]
     helpers = Helpers(sequence_flow(clip.frames), progress=progress)
     mask = masks_from_prompts(clip.frames, alike, clip.source_size, helpers) > 0
     return Drawn(mask, tuple(sorted({prompt.frame for prompt in prompts})))
+
+
+def corrected(clip: Clip, old: Drawn, prompts: list[Prompt]) -> Drawn:
+    """A mask put right by prompts (in pixels of the clip's source), there and as far as the change goes on.
+
+    Raises GenmojoError("argument") for a prompt that cannot be meant.
+    """
+    mask = correct_masks(clip.frames, fitted(old.mask, clip), prompts, clip.source_size, old.frames)
+    return Drawn(mask, tuple(sorted({*old.frames, *(prompt.frame for prompt in prompts)})))
+
+
+def followed(clip: Clip, old: Drawn, known: np.ndarray) -> Drawn:
+    """A mask carried on into the frames for which the clip's files have none (not `known`, (T,) bool).
+
+    Raises GenmojoError("empty") if there is no such frame, or no mask to follow.
+    """
+    mask = fitted(old.mask, clip)
+    seeds = {int(t): mask[t] for t in np.flatnonzero(mask.any(axis=(1, 2)))}
+    if known.all():
+        raise GenmojoError("empty", "every frame has masks already", clip.name, "correct the mask instead")
+    if not seeds:
+        raise GenmojoError("empty", "the object has no mask to follow", clip.name, "draw a box where it is seen")
+    found = follow(clip.frames, seeds, Helpers(sequence_flow(clip.frames))) >= 0.5
+    return Drawn(np.where(known[:, None, None], mask, found), old.frames)
 
 
 def with_object(clip: Clip, object_id: int, name: str, mask: np.ndarray) -> Clip:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from enum import Enum
 from functools import partial
 from pathlib import Path
 
@@ -18,15 +19,24 @@ from genmojo_core.tracks.annotation import ObjectInfo, Touched
 from genmojo_core.tracks.edit_tracks import put_objects
 from genmojo_studio import notify
 from genmojo_studio.annotate import hand_masks
-from genmojo_studio.annotate.canvas import Tool
 from genmojo_studio.annotate.hand_masks import Drawn
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.background import Tasks
 from genmojo_studio.translate import fault, tr
 
+SMALLEST = 2.0  # raster pixels: sides of a box that can be meant
+
+
+class Purpose(Enum):
+    """What a cut is for."""
+
+    NEW = "new"  # an object of its own
+    CORRECT = "correct"  # the selected object's mask, put right
+    ANEW = "anew"  # another mask for the selected object
+
 
 class Masks(QObject):
-    """What is drawn waits in `prompts`; `cut` makes an edit of it. `changed` tells whenever other masks are on show.
+    """What is drawn waits in `Session.sketch`; `cut` makes an edit of it. `changed`: other masks are on show.
 
     Cutting out takes long, so it has a thread of its own; another one reads masks back and writes them for runs.
     """
@@ -34,17 +44,16 @@ class Masks(QObject):
     changed = Signal()
     cutting = Signal(float)  # 0..1, 1 when done
     busy_changed = Signal(str)  # what is going on, "" for nothing
-    tool_changed = Signal(object)  # Tool or None
+    sketched = Signal(int)  # how many boxes and strokes wait
 
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session = session
         self.tasks, self._files = Tasks(), Tasks()
-        self.prompts: list[Prompt] = []
-        self.replaces: Callable[[], int | None] = lambda: (
-            None
-        )  # the object whose mask a cut stands for; None: a new one
+        self._taken: list[Prompt] = []  # taken back, newest last
+        self.target: Callable[[], tuple[Purpose, int | None]] = lambda: (Purpose.NEW, None)  # and the object's id
         self._own: Clip | None = None  # as its files give it
+        self.known = np.zeros(0, bool)  # (T,) frames for which the clip's files have masks
         self._first: dict[int, Drawn] = {}  # of a project older than edits of masks
         self._known: dict[int, Drawn] = {}  # by number: those on show and the newest
         self._wanted: dict[int, int] | None = None  # object id -> number, on show or on the way
@@ -57,9 +66,12 @@ class Masks(QObject):
         self.tasks.close()
         self._files.close()
 
-    def begin(self, clip: Clip, first: dict[int, Drawn]) -> None:
-        """The clip has been read, with the masks of its files; `first` as `hand_masks.load_first`."""
-        self._own, self._first = clip, first
+    def begin(self, clip: Clip, first: dict[int, Drawn], known: np.ndarray) -> None:
+        """The clip has been read, with the masks of its files, which `known` (T,) frames have.
+
+        `first` is as `hand_masks.load_first`.
+        """
+        self._own, self._first, self.known = clip, first, known
         self._show()
 
     @property
@@ -74,42 +86,97 @@ class Masks(QObject):
 
     # ---- drawing
 
-    def use_tool(self, tool: Tool | None) -> None:
-        """Draw with a tool on the canvas; None goes back to points and forgets what was drawn."""
-        if tool is None:
-            self.prompts = []
-        self.tool_changed.emit(tool)
-
     def add_box(self, x0: float, y0: float, x1: float, y1: float) -> None:
-        """A box around an object of the frame on show."""
-        if x1 - x0 >= 2 and y1 - y0 >= 2:
-            self.prompts.append(hand_masks.box_prompt(self._session.frame, (x0, y0, x1, y1)))
-            self.cut()
+        """A box around an object of the frame on show, in raster pixels; what lies outside the frame is left out."""
+        width, height = self._session.annotation.size
+        x0, x1, y0, y1 = max(x0, 0.0), min(x1, float(width)), max(y0, 0.0), min(y1, float(height))
+        if x1 - x0 >= SMALLEST and y1 - y0 >= SMALLEST:
+            self._add(hand_masks.box_prompt(self._session.frame, (x0, y0, x1, y1)))
+        else:
+            self._session.said.emit(tr("Draw inside the frame, not too small."))
 
     def add_stroke(self, points: np.ndarray, on: bool) -> None:
-        """A stroke or a click in the frame on show; `cut` uses it."""
-        self.prompts.append(hand_masks.stroke_prompt(self._session.frame, points, on=on))
-        self._session.said.emit(tr("{n} strokes; press Cut out.").format(n=len(self.prompts)))
+        """A stroke or a click (n, 2) in the frame on show, raster pixels; what lies outside the frame is left out."""
+        inside = points[((points >= 0) & (points <= np.array(self._session.annotation.size))).all(axis=1)]
+        if len(inside):
+            self._add(hand_masks.stroke_prompt(self._session.frame, inside, on=on))
+        else:
+            self._session.said.emit(tr("Draw inside the frame, not too small."))
+
+    def take_back(self) -> bool:
+        """The box or stroke drawn last goes, until it is put back; False if there is none."""
+        return self._move(self._session.sketch, self._taken)
+
+    def put_back(self) -> bool:
+        """The box or stroke taken back last is there again; False if there is none."""
+        return self._move(self._taken, self._session.sketch)
 
     def cut(self) -> None:
-        """Make an object of what was drawn, in a thread."""
-        clip, prompts = self._session.clip, list(self.prompts)
+        """Make a mask of what was drawn, in a thread: of a new object, or another one of an object that is there."""
+        session, clip, prompts = self._session, self._session.clip, list(self._session.sketch)
+        purpose, number = self.target()
         if clip is None or not prompts:
-            reading = tr("The clip is still being read.")
-            self._session.said.emit(reading if clip is None else tr("Draw something first."))
+            session.said.emit(tr("The clip is still being read.") if clip is None else tr("Draw something first."))
             return
-        self.prompts = []
+        old = self._mask_of(clip, number) if purpose == Purpose.CORRECT and number is not None else None
+
+        def work() -> Drawn:
+            return hand_masks.corrected(clip, old, prompts) if old else hand_masks.cut_out(clip, prompts)
+
+        self._make(work, number, prompts)
+
+    def follow(self, number: int) -> None:
+        """Carry an object's mask on into frames for which the clip has none, in a thread."""
+        clip = self._session.clip
+        if clip is not None:
+            old, known = self._mask_of(clip, number), self.known
+            self._make(lambda: hand_masks.followed(clip, old, known), number, [])
+
+    def _make(self, work: Callable[[], Drawn], number: int | None, prompts: list[Prompt]) -> None:
+        """Make a mask of an object (None: a new one) in a thread; `prompts` are used up by it."""
+        if self.tasks.busy or self._session.project.read_only:
+            busy, closed = tr("Something is being cut out already."), tr("The project is read only.")
+            self._session.said.emit(busy if self.tasks.busy else closed)
+            return
         self.busy_changed.emit(tr("Cutting the object out of every frame …"))
         self.cutting.emit(0.0)
-        done = partial(self._cut_done, self.replaces())
 
-        def work() -> tuple[Drawn, bytes]:
-            drawn = hand_masks.cut_out(clip, prompts)
+        def packed() -> tuple[Drawn, bytes]:
+            drawn = work()
             return drawn, hand_masks.pack(drawn)
 
-        self.tasks.run(work, done, self._failed)
+        self.tasks.run(packed, partial(self._cut_done, number, prompts), self._failed)
 
-    def _cut_done(self, replaced: int | None, result: tuple[Drawn, bytes]) -> None:
+    def _add(self, prompt: Prompt) -> None:
+        self._taken.clear()
+        self._session.sketch.append(prompt)
+        self._sketched()
+
+    def _move(self, source: list[Prompt], target: list[Prompt]) -> bool:
+        if source:
+            target.append(source.pop())
+            self._sketched()
+            return True
+        return False
+
+    def _sketched(self) -> None:
+        """Something was drawn or taken back."""
+        count = len(self._session.sketch)
+        said = tr("Drawn: {n}. Cut out makes a mask of it; undo takes the last one back.")
+        self._session.said.emit(said.format(n=count))
+        self.sketched.emit(count)
+        self._session.shown.emit()
+
+    def _mask_of(self, clip: Clip, number: int) -> Drawn:
+        """The mask of an object as it stands."""
+        info, ids = self._session.annotation.objects.get(number), clip.object_ids.tolist()
+        if info is not None and info.mask in self._known:
+            return self._known[info.mask]
+        if number in ids:
+            return Drawn(clip.object_mask(ids.index(number)))
+        return Drawn(np.zeros(clip.frames.shape[:3], bool))
+
+    def _cut_done(self, replaced: int | None, prompts: list[Prompt], result: tuple[Drawn, bytes]) -> None:
         session, clip = self._session, self._session.clip
         if self._closed or clip is None:
             return
@@ -125,9 +192,13 @@ class Masks(QObject):
         except GenmojoError as error:
             session.said.emit(fault(error))
             return
+        session.sketch = [p for p in session.sketch if not any(p is used for used in prompts)]
+        self._taken.clear()
+        self.sketched.emit(len(session.sketch))
         self._known[mask] = drawn
-        edit = put_objects(annotation, [replace(info, mask=mask)], say("cut_out", name=info.name))
-        session.do(replace(edit, frame=drawn.frames[0]))
+        title = say("correct_mask" if replaced else "cut_out", name=info.name)
+        edit = put_objects(annotation, [replace(info, mask=mask)], title)
+        session.do(replace(edit, frame=prompts[0].frame if prompts else None))
         session.select(number, 1)
 
     # ---- showing what the edits say

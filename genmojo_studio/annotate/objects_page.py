@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
-from PySide6.QtGui import QIcon
+from PySide6.QtGui import QColor, QIcon, QPainter, QPen, QPixmap
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QCheckBox,
     QComboBox,
     QGridLayout,
     QHBoxLayout,
@@ -30,11 +29,15 @@ from genmojo_core.tracks.edit_tracks import put_objects
 from genmojo_core.tracks.edits import set_meta
 from genmojo_studio.annotate.candidates import Figures
 from genmojo_studio.annotate.canvas import Tool
+from genmojo_studio.annotate.colours import object_colour
+from genmojo_studio.annotate.masks import Purpose
 from genmojo_studio.annotate.session import Session
-from genmojo_studio.annotate.track_tree import point_icon
-from genmojo_studio.translate import decimal, tr
+from genmojo_studio.translate import decimal, mark, tr
 
-REASONS = ("too small", "does not move", "hidden too often", "not an object", "enough objects")
+REASONS = (mark("too small"), mark("does not move"), mark("hidden too often"), mark("not an object"),
+           mark("enough objects"))  # fmt: skip
+_FITTING = {"small": REASONS[0], "static": REASONS[1], "hidden": REASONS[2], "covered": REASONS[2]}  # what advice means
+_LONGEST = 60  # characters of a name or a reason
 _COLUMNS = 5
 
 
@@ -48,15 +51,15 @@ class ObjectsPage(QWidget):
         super().__init__(parent)
         self._session = session
         self.figures: dict[int, Figures] = {}
-        self._filling = False
+        self.bare = 0
+        self._filling = self._cutting = False
         self.table = QTableWidget(0, _COLUMNS)
-        self.reason = QComboBox()
+        self.reason = QComboBox(editable=True)
         self.tools: dict[Tool, QToolButton] = {}
         self.cut = QPushButton(tr("Cut out"))
-        self.instead = QCheckBox(tr("Instead of the selected object's mask"))
-        self.instead.setToolTip(tr("What is drawn replaces its mask in every frame; runs use the new one."))
+        self.purpose = QComboBox()
         self.progress = QProgressBar(maximum=100)
-        self.note = QLabel(wordWrap=True)
+        self.about, self.note = QLabel(wordWrap=True), QLabel(wordWrap=True)
         self.limits = {"objects": QSpinBox(minimum=1, maximum=20), "points": QSpinBox(minimum=1, maximum=20)}
         self.progress.hide()
         self._arrange()
@@ -73,6 +76,7 @@ class ObjectsPage(QWidget):
             self._fill(row, info)
         self._filling = False
         self._select()
+        self._tell()
         chosen = len(self._session.objects())
         most = self._session.limit("objects")
         self.note.setText(tr("{n} of at most {most} objects chosen.").format(n=chosen, most=most))
@@ -80,21 +84,32 @@ class ObjectsPage(QWidget):
             with QSignalBlocker(box):
                 box.setValue(self._session.limit(name))
 
-    def set_figures(self, figures: dict[int, Figures]) -> None:
-        """Figures of the masks have been computed."""
-        self.figures = figures
+    def set_figures(self, figures: dict[int, Figures], bare: int) -> None:
+        """Figures of the masks have been computed; `bare`: frames for which the clip has no masks."""
+        self.figures, self.bare = figures, bare
         self.refresh()
 
     def show_cutting(self, share: float) -> None:
         """Progress of cutting an object out, 0..1."""
         self.progress.setVisible(share < 1)
         self.progress.setRange(0, 0 if share < 1 else 100)
-        self.cut.setEnabled(share >= 1)
+        self._cutting = share < 1
+        self.cut.setEnabled(not self._cutting and bool(self._session.sketch))
 
-    def replaced(self) -> int | None:
-        """Id of the object whose mask is to be drawn anew, None for a new object."""
-        info = self.current()
-        return info.id if info is not None and self.instead.isChecked() else None
+    def show_sketched(self, count: int) -> None:
+        """So many boxes and strokes wait to be cut out."""
+        self.cut.setEnabled(not self._cutting and count > 0)
+
+    def target(self) -> tuple[Purpose, int | None]:
+        """What a cut is for, and the object whose mask it makes; without a selected object a new one."""
+        info, purpose = self.current(), Purpose(self.purpose.currentData())
+        if info is None or purpose == Purpose.NEW:
+            return Purpose.NEW, None
+        return purpose, info.id
+
+    def set_purpose(self, purpose: Purpose) -> None:
+        """What the next cut is for."""
+        self.purpose.setCurrentIndex(self.purpose.findData(purpose.value))
 
     def current(self) -> ObjectInfo | None:
         """The object of the row that is selected."""
@@ -117,10 +132,13 @@ class ObjectsPage(QWidget):
         self._session.select(info.id, 1)
 
     def reject(self) -> None:
-        """Leave the object of this row out, for the reason chosen."""
-        info = self.current()
-        if info is not None:
-            reason = REASONS[self.reason.currentIndex()]
+        """Leave the object of this row out, for the reason chosen or written."""
+        info, text = self.current(), self.reason.currentText().strip()[:_LONGEST]
+        if info is not None and not text:
+            self._session.said.emit(tr("Say why it is left out."))
+        elif info is not None:
+            known = {tr(reason): reason for reason in REASONS}
+            reason = known.get(text, text)
             self._put([replace(info, status="rejected", order=0, reason=reason)], say("reject_object", name=info.name))
 
     def reorder(self, step: int) -> None:
@@ -154,10 +172,8 @@ class ObjectsPage(QWidget):
             if column:
                 item.setFlags(item.flags() & ~Qt.ItemFlag.ItemIsEditable)
             self.table.setItem(row, column, item)
-        chosen = info.status == "chosen"
-        icon = point_icon(self._session.place_of(info.id), 0) if chosen else QIcon()
-        advice = {"small": tr("very small"), "static": tr("hardly moves"), "hidden": tr("seen in few frames")}
-        text = tr(info.reason) or (advice.get(f.advice, "") if f else "")
+        icon = _swatch(self._session.places().get(info.id, 0), filled=info.status == "chosen")
+        text = self._why(info)
         tip = f"{texts[0]}: {text}" if text else texts[0]
         for column in range(_COLUMNS):
             cell = self.table.item(row, column)
@@ -169,11 +185,31 @@ class ObjectsPage(QWidget):
             elif column == 1 and info.status == "candidate" and text:
                 cell.setText("?!")
 
+    def _why(self, info: ObjectInfo) -> str:
+        """Why an object is left out, or what speaks against it, "" for nothing."""
+        f = self.figures.get(info.id)
+        advice = {"small": tr("very small"), "static": tr("hardly moves"), "hidden": tr("seen in few frames"),
+                  "covered": tr("partly hidden most of the time")}  # fmt: skip
+        return tr(info.reason) if info.reason else advice.get(f.advice, "") if f else ""
+
+    def _tell(self) -> None:
+        """What is to be said of the selected object, and the reason that suits it."""
+        info = self.current()
+        why = self._why(info) if info is not None else ""
+        lacking = tr("{n} frames have no masks: Follow it carries the selected one on.") if self.bare else ""
+        about = f"{info.name}: {why}. " if info is not None and why else ""
+        self.about.setText(about + lacking.format(n=self.bare))
+        f = self.figures.get(info.id) if info is not None else None
+        fitting = info.reason if info and info.reason else _FITTING.get(f.advice, "") if f else ""
+        if fitting:
+            self.reason.setCurrentText(tr(fitting))
+
     def _arrange(self) -> None:
         self.table.setHorizontalHeaderLabels([tr("object"), "✓", tr("size"), tr("motion"), tr("seen/cut")])
         tips = ("", tr("✓ chosen, ? undecided (! something speaks against it), ✗ left out"),
-                tr("Median share of the frame"), tr("Pixels per frame at 1080 lines"),
-                tr("Share of frames in which it is seen; of those, in which it is partly hidden"))  # fmt: skip
+                tr("Median share of the frame"), tr("Pixels per frame at 1080 lines, against the background"),
+                tr("Share of the frames with masks in which it is seen; of those, in which it is partly hidden"),
+                )  # fmt: skip
         for place, tip in enumerate(tips):
             header = self.table.horizontalHeaderItem(place)
             if header is not None:
@@ -189,6 +225,7 @@ class ObjectsPage(QWidget):
         self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.table.setTabKeyNavigation(False)
         self.table.setWordWrap(False)
+        self.table.setTextElideMode(Qt.TextElideMode.ElideMiddle)  # names often differ in a number at their end
         self.table.setAccessibleName(tr("Candidate objects"))
         self.table.itemChanged.connect(self._renamed)
         self.table.itemSelectionChanged.connect(self._picked)
@@ -196,8 +233,9 @@ class ObjectsPage(QWidget):
         column.setContentsMargins(8, 6, 8, 6)
         column.addWidget(self.table, 1)
         column.addLayout(self._decisions())
+        column.addWidget(self.about)
         column.addLayout(self._makers())
-        column.addWidget(self.instead)
+        column.addWidget(self.purpose)
         column.addWidget(self.progress)
         column.addWidget(self.note)
         column.addLayout(self._most())
@@ -219,9 +257,8 @@ class ObjectsPage(QWidget):
     def _decisions(self) -> QGridLayout:
         grid = QGridLayout()
         self.choose_button, self.reject_button = QPushButton(tr("Choose")), QPushButton(tr("Leave out:"))
-        for reason in (tr("too small"), tr("does not move"), tr("hidden too often"), tr("not an object"),
-                       tr("enough objects")):  # fmt: skip
-            self.reason.addItem(reason)
+        self.reason.addItems([tr(reason) for reason in REASONS])
+        self.reason.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
         self.reason.setAccessibleName(tr("Reason for leaving it out"))
         up, down = _tool("↑", tr("Earlier")), _tool("↓", tr("Later"))
         self.choose_button.clicked.connect(self.choose)
@@ -250,6 +287,13 @@ class ObjectsPage(QWidget):
             button.clicked.connect(self._tool_clicked)
             self.tools[tool] = button
             row.addWidget(button)
+        for purpose, text in ((Purpose.NEW, tr("Makes a new object")),
+                              (Purpose.CORRECT, tr("Puts the selected object's mask right")),
+                              (Purpose.ANEW, tr("Draws the selected object's mask anew"))):  # fmt: skip
+            self.purpose.addItem(text, purpose.value)
+        self.purpose.setAccessibleName(tr("What is cut out"))
+        self.purpose.setToolTip(tr("A correction changes what you point at, and goes on from frame to frame until the "
+                                   "mask agrees with it."))  # fmt: skip
         self.cut.setEnabled(False)
         self.cut.clicked.connect(self.cut_wanted)
         row.addWidget(self.cut)
@@ -264,21 +308,28 @@ class ObjectsPage(QWidget):
         """Draw with a tool from now on, or with none."""
         for tool, button in self.tools.items():
             button.setChecked(tool == chosen)
-        self.cut.setEnabled(chosen is not None)
         self.tool_wanted.emit(chosen)
 
     def _renamed(self, item: QTableWidgetItem) -> None:
         if self._filling or item.column():
             return
-        objects = self._ordered()
-        name = item.text().strip()[:60]
+        objects, text = self._ordered(), item.text().strip()
+        name = text[:_LONGEST]
+        if not name:
+            self._session.said.emit(tr("An object needs a name."))
+        elif len(text) > _LONGEST:
+            self._session.said.emit(tr("Names have {n} characters at most.").format(n=_LONGEST))
         if item.row() < len(objects) and name and name != objects[item.row()].name:
             self._put([replace(objects[item.row()], name=name)], say("name_object", name=name))
+        else:
+            self.refresh()
 
     def _picked(self) -> None:
         info = self.current()
         if info is not None and not self._filling and self.table.hasFocus():
             self._session.select(info.id, 1)
+        if not self._filling:
+            self._tell()
 
     def _select(self) -> None:
         objects = self._ordered()
@@ -296,14 +347,27 @@ class ObjectsPage(QWidget):
         for name, box in self.limits.items():
             if box.value() != self._session.limit(name):
                 edit = set_meta(self._session.annotation, f"limit_{name}", str(box.value()))
-                if self._session.do(replace(edit, title=say(f"most_{name}", count=box.value()))) is None:
-                    self.refresh()
+                self._session.do(replace(edit, title=say(f"most_{name}", count=box.value())))
+                self.refresh()
 
     def _up(self) -> None:
         self.reorder(-1)
 
     def _down(self) -> None:
         self.reorder(1)
+
+
+def _swatch(place: int, *, filled: bool) -> QIcon:
+    """An object's colour, as its outline has it: full where it is annotated, else a frame."""
+    pixmap = QPixmap(14, 14)
+    pixmap.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(pixmap)
+    colour = QColor(*object_colour(place))
+    painter.setPen(QPen(colour, 2))
+    painter.setBrush(colour if filled else Qt.BrushStyle.NoBrush)
+    painter.drawRect(2, 2, 10, 10)
+    painter.end()
+    return QIcon(pixmap)
 
 
 def _tool(text: str, tip: str) -> QToolButton:

@@ -17,6 +17,7 @@ import pyqtgraph as pg
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QPainter, QPainterPath, QPen, QPixmap, QPolygonF
 
+from genmojo_core.estimate.masks import Box, Prompt
 from genmojo_core.tracks.annotation import CONFIRMED, KEY, UNCERTAIN
 from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
 from genmojo_studio.annotate.colours import glyph, object_colour, point_colour
@@ -54,6 +55,7 @@ class Picture:
         trails: per mark, raster xy (k, 2), state (k,) and index in them of the frame shown.
         contours: per object id, its place in the list and its outlines as closed (m, 2) raster polygons.
         mask_mode: 0 off, 1 outline, 2 filled. selected: track id or None.
+        sketch: boxes and strokes of this frame that wait to be cut out.
     """
 
     marks: list[Mark] = field(default_factory=list)
@@ -63,6 +65,7 @@ class Picture:
     mask_mode: int = 1
     selected: int | None = None
     selected_object: int | None = None
+    sketch: list[Prompt] = field(default_factory=list)
 
 
 def contours_of(labels: np.ndarray, places: dict[int, int]) -> dict[int, tuple[int, list[np.ndarray]]]:
@@ -103,6 +106,28 @@ def draw(painter: QPainter, picture: Picture, mapping: Mapping, view: QRectF, *,
             painter.drawPixmap(centre - QPointF(half, half), stamp)
         elif mark.state == VISIBLE:
             _arrow(painter, mark, centre, view)
+    _sketch(painter, picture.sketch, mapping)
+
+
+def sketch_pen(*, on: bool) -> QPen:
+    """How strokes on an object, and those beside it, are drawn."""
+    return QPen(QColor(120, 220, 255) if on else QColor(255, 120, 120), 2.5, Qt.PenStyle.SolidLine,
+                Qt.PenCapStyle.RoundCap)  # fmt: skip
+
+
+def _sketch(painter: QPainter, sketch: list[Prompt], mapping: Mapping) -> None:
+    """Boxes and strokes that wait."""
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    for prompt in sketch:
+        if isinstance(prompt, Box):
+            painter.setPen(sketch_pen(on=True))
+            corners = [QPointF(*mapping.to_widget(*xy)) for xy in ((prompt.x0, prompt.y0), (prompt.x1, prompt.y1))]
+            painter.drawRect(QRectF(*corners))
+            continue
+        painter.setPen(sketch_pen(on=prompt.foreground))
+        line = pg.functions.arrayToQPolygonF(*_mapped(prompt.points, mapping))
+        painter.drawPolyline(line)
+        painter.drawEllipse(line[0], 2.5, 2.5)  # of a click nothing else would be seen
 
 
 def draw_mark(painter: QPainter, mark: Mark, centre: QPointF, *, selected: bool = False) -> None:

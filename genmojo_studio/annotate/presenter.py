@@ -33,7 +33,7 @@ class Presenter:
         rest[detailed] = False
         return Picture(
             marks, view.xy[rest], self._trails(marks, frame), self.contours(frame), session.mask_mode,
-            session.track, session.active[0],
+            session.track, session.active[0], [p for p in session.sketch if p.frame == frame and session.sketching],
         )  # fmt: skip
 
     def contours(self, frame: int) -> dict:
@@ -45,9 +45,7 @@ class Presenter:
         if frame not in self._contours:
             if len(self._contours) > 400:
                 self._contours.clear()
-            ids = [o.id for o in self._session.objects()]
-            ids += [i for i in self._session.annotation.objects if i not in ids]
-            places = {i: n for n, i in enumerate(ids)}
+            places = self._session.places()
             found = {} if labels is None else contours_of(labels, {i: n for i, n in places.items() if i not in hand})
             for i, masks in hand.items():
                 lines = contours_of(masks[frame].astype(np.uint8) * np.uint8(i), {i: places.get(i, 0)})

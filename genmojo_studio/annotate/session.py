@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, Signal
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
+from genmojo_core.estimate.masks import Prompt
 from genmojo_core.store.project import Project, Step
 from genmojo_core.store.project_file import ClipInfo
 from genmojo_core.tracks.annotation import Annotation, ObjectInfo, Touched
@@ -64,6 +65,8 @@ class Session(QObject):
         self.first_frames: dict[int, int] = {}  # object id -> frame in which it is first seen, as far as that is known
         self.placed: tuple[int, int] | None = None  # the point placed just now, while the next one is active
         self.hand_masks: dict[int, np.ndarray] = {}  # object id -> (T, h, w) bool, made in step 1
+        self.sketch: list[Prompt] = []  # drawn in step 1 and not cut out yet
+        self.sketching = False  # whether it is shown
         self._points: dict[tuple[int, int], int] = {}
         self._looked_up = -1
         self._back: list[tuple[int, tuple[int, int]]] = []
@@ -112,6 +115,11 @@ class Session(QObject):
         """Place of an object in that order, which gives its hue; after all others if it is not among them."""
         ids = [o.id for o in self.objects()]
         return ids.index(object_id) if object_id in ids else len(ids)
+
+    def places(self) -> dict[int, int]:
+        """Place, hence hue, of every object: those that are annotated in their order, then the others."""
+        ids = [o.id for o in self.objects()]
+        return {i: n for n, i in enumerate([*ids, *(i for i in self.annotation.objects if i not in ids)])}
 
     def limit(self, name: str) -> int:
         """How many "objects" per clip or "points" per object this project wants."""

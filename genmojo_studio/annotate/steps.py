@@ -12,6 +12,7 @@ import numpy as np
 
 from genmojo_core.tracks.annotation import CONFIRMED, KEY, Annotation
 from genmojo_core.tracks.model import NONE
+from genmojo_studio.annotate.session import OBJECTS
 from genmojo_studio.translate import mark, tr
 
 MANY = 100
@@ -45,6 +46,9 @@ def _objects_missing(annotation: Annotation, points: int, stride: int) -> str:
     chosen = annotation.chosen_objects()
     if not chosen:
         return tr("Choose at least one object.")
+    most = int(annotation.meta.get("limit_objects", OBJECTS))
+    if len(chosen) > most:
+        return tr("{n} objects are chosen, at most {most} are wanted.").format(n=len(chosen), most=most)
     if any(not o.name.strip() for o in chosen):
         return tr("Give every chosen object a name.")
     unjudged = [o for o in annotation.objects.values() if o.status == "candidate"]
@@ -93,6 +97,14 @@ SHORT = {  # what a narrow button says where the menu's text is too long
     "move.worst": mark("Next doubt"),
     "move.bisect": mark("Middle of gap"),
     "move.loop": mark("Loop"),
+    "object.choose": mark("Choose"),
+    "object.reject": mark("Leave out"),
+    "object.earlier": mark("Earlier"),
+    "object.later": mark("Later"),
+    "object.box": mark("Box"),
+    "object.stroke": mark("On it"),
+    "object.not_this": mark("Not this"),
+    "object.follow": mark("Follow it"),
     "point.outside": mark("Out of view"),
     "point.key": mark("Key"),
     "point.snap": mark("Snap"),
@@ -138,6 +150,8 @@ STEPS = (
         mark("Objects"),
         mark("Choose the moving objects to annotate, and say why the others are left out."),
         (
+            (mark("Objects"), _ids("object.choose", "object.reject", "object.earlier", "object.later")),
+            (mark("Draw"), _ids("object.box", "object.stroke", "object.not_this", "object.cut", "object.follow")),
             (mark("Masks"), _ids("view.masks", "view.fit", "view.one")),
             (mark("History"), _ids("edit.undo", "edit.redo")),
         ),

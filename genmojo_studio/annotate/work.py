@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from genmojo_core.clip import folders
@@ -18,7 +19,7 @@ from genmojo_core.tracks.annotation import ObjectInfo
 from genmojo_core.tracks.edit_tracks import put_objects
 from genmojo_studio import notify
 from genmojo_studio.annotate import hand_masks, tracking
-from genmojo_studio.annotate.candidates import Figures, figures
+from genmojo_studio.annotate.candidates import Figures, all_figures, camera_path
 from genmojo_studio.annotate.hand_masks import Drawn
 from genmojo_studio.annotate.masks import Masks
 from genmojo_studio.annotate.session import Session
@@ -30,9 +31,11 @@ _OFFERED = "candidates"  # blob: ids of masks that became candidates once, so th
 
 @dataclass(frozen=True)
 class _Read:
-    """The clip with its own masks, masks of an older project, ids of masks offered before (None: not noted)."""
+    """The clip with its own masks and the frames (T,) that have any, masks of an older project, ids of masks offered
+    before (None: not noted)."""
 
     clip: Clip
+    known: np.ndarray
     first: dict[int, Drawn]
     offered: set[int] | None
 
@@ -41,7 +44,7 @@ class Work(QObject):
     """Owns the threads of one session; results arrive on the UI thread, late ones are dropped."""
 
     clip_ready = Signal()
-    figures_ready = Signal(object)  # {object id: Figures}
+    figures_ready = Signal(object, int)  # {object id: Figures}, number of frames without masks
     spots_ready = Signal(object)  # list of Spot
     busy_changed = Signal(str)  # what is going on, "" for nothing
 
@@ -56,6 +59,7 @@ class Work(QObject):
         self.tracker.spots_ready.connect(self.spots_ready)
         self.tracker.busy_changed.connect(self.busy_changed)
         self._read: _Read | None = None
+        self._camera: np.ndarray | None = None  # once known; masks change it hardly
         self._ready = False
         self._closed = False
         QTimer.singleShot(0, self._read_clip)
@@ -85,7 +89,7 @@ class Work(QObject):
             return
         self.busy_changed.emit("")
         self._read = read
-        self.masks.begin(read.clip, read.first)
+        self.masks.begin(read.clip, read.first, read.known)
 
     def _masks_changed(self) -> None:
         """Other masks are on show: for the first time the clip is ready too."""
@@ -120,10 +124,15 @@ class Work(QObject):
         if clip is None or clip.masks is None:
             return
 
-        def work() -> dict[int, Figures]:
-            return {int(i): figures(clip.masks.value, k + 1) for k, i in enumerate(clip.object_ids)}  # type: ignore[union-attr]
+        def work() -> tuple[np.ndarray, dict[int, Figures]]:
+            camera = self._camera if self._camera is not None else camera_path(clip)
+            return camera, all_figures(clip, self.masks.known, camera)
 
-        self.tasks.run(work, self.figures_ready.emit, self._failed)
+        self.tasks.run(work, self._counted, self._failed)
+
+    def _counted(self, result: tuple[np.ndarray, dict[int, Figures]]) -> None:
+        self._camera, found = result
+        self.figures_ready.emit(found, int((~self.masks.known).sum()))
 
     def _failed(self, error: BaseException) -> None:
         if self._closed:
@@ -144,4 +153,5 @@ def _read(project: Project, path: Path, held: Clip | None, corrected: bool) -> _
             clip = held.with_channels(masks=clip.masks, object_ids=clip.object_ids, object_names=clip.object_names)
     noted = project.blob(_OFFERED)
     offered = None if noted is None else {int(i) for i in parse_json(noted.decode(), _OFFERED)}
-    return _Read(clip, hand_masks.load_first(project), offered)
+    known = np.ones(len(clip), bool) if clip.masks is None else np.any(clip.masks.valid, axis=(1, 2))
+    return _Read(clip, known, hand_masks.load_first(project), offered)

@@ -246,6 +246,7 @@ class AnnotateWorkspace(QMainWindow):
         self.pages.setCurrentWidget(self._by_name[step.page])
         self.docks["information"].setWindowTitle(f"{tr('Information')}: {tr(step.title)}")
         self.strip.setVisible(step.shows_strip)
+        self.session.sketching = not step.clicks
         if step.clicks:
             self.objects.use_tool(None)
         self.canvas.places = step.places_points

@@ -316,16 +316,28 @@
       <translation>jetzt</translation>
     </message>
     <message>
-      <source>The clip is still being read.</source>
-      <translation>Der Clip wird noch gelesen.</translation>
+      <source>Drawn: {n}. Cut out makes a mask of it; undo takes the last one back.</source>
+      <translation>Gezeichnet: {n}. „Ausschneiden“ macht daraus eine Maske; „Rückgängig“ nimmt das Letzte zurück.</translation>
     </message>
     <message>
       <source>Cutting the object out of every frame …</source>
       <translation>Das Objekt wird aus jedem Bild geschnitten …</translation>
     </message>
     <message>
-      <source>{n} strokes; press Cut out.</source>
-      <translation>{n} Striche; drücken Sie Ausschneiden.</translation>
+      <source>Draw inside the frame, not too small.</source>
+      <translation>Im Bild zeichnen, nicht zu klein.</translation>
+    </message>
+    <message>
+      <source>Something is being cut out already.</source>
+      <translation>Es wird schon etwas ausgeschnitten.</translation>
+    </message>
+    <message>
+      <source>The project is read only.</source>
+      <translation>Das Projekt kann nur gelesen werden.</translation>
+    </message>
+    <message>
+      <source>The clip is still being read.</source>
+      <translation>Der Clip wird noch gelesen.</translation>
     </message>
     <message>
       <source>Draw something first.</source>
@@ -404,50 +416,6 @@
       <translation>die Mitte</translation>
     </message>
     <message>
-      <source>Cut out</source>
-      <translation>Ausschneiden</translation>
-    </message>
-    <message>
-      <source>Instead of the selected object's mask</source>
-      <translation>Anstelle der Maske des gewählten Objekts</translation>
-    </message>
-    <message>
-      <source>What is drawn replaces its mask in every frame; runs use the new one.</source>
-      <translation>Was gezeichnet wird, ersetzt seine Maske in jedem Bild; Läufe nehmen die neue.</translation>
-    </message>
-    <message>
-      <source>very small</source>
-      <translation>sehr klein</translation>
-    </message>
-    <message>
-      <source>hardly moves</source>
-      <translation>bewegt sich kaum</translation>
-    </message>
-    <message>
-      <source>seen in few frames</source>
-      <translation>in wenigen Bildern zu sehen</translation>
-    </message>
-    <message>
-      <source>✓ chosen, ? undecided (! something speaks against it), ✗ left out</source>
-      <translation>✓ gewählt, ? offen (! etwas spricht dagegen), ✗ weggelassen</translation>
-    </message>
-    <message>
-      <source>Median share of the frame</source>
-      <translation>Mittlerer Anteil am Bild</translation>
-    </message>
-    <message>
-      <source>Pixels per frame at 1080 lines</source>
-      <translation>Pixel je Bild bei 1080 Zeilen</translation>
-    </message>
-    <message>
-      <source>Share of frames in which it is seen; of those, in which it is partly hidden</source>
-      <translation>Anteil der Bilder, in denen es zu sehen ist; davon die, in denen es teils verdeckt ist</translation>
-    </message>
-    <message>
-      <source>Candidate objects</source>
-      <translation>Mögliche Objekte</translation>
-    </message>
-    <message>
       <source>too small</source>
       <translation>zu klein</translation>
     </message>
@@ -468,8 +436,64 @@
       <translation>genug Objekte</translation>
     </message>
     <message>
+      <source>Cut out</source>
+      <translation>Ausschneiden</translation>
+    </message>
+    <message>
+      <source>very small</source>
+      <translation>sehr klein</translation>
+    </message>
+    <message>
+      <source>hardly moves</source>
+      <translation>bewegt sich kaum</translation>
+    </message>
+    <message>
+      <source>seen in few frames</source>
+      <translation>in wenigen Bildern zu sehen</translation>
+    </message>
+    <message>
+      <source>partly hidden most of the time</source>
+      <translation>meistens teilweise verdeckt</translation>
+    </message>
+    <message>
+      <source>{n} frames have no masks: Follow it carries the selected one on.</source>
+      <translation>{n} Bilder haben keine Masken: „Verfolgen“ führt die gewählte weiter.</translation>
+    </message>
+    <message>
+      <source>✓ chosen, ? undecided (! something speaks against it), ✗ left out</source>
+      <translation>✓ gewählt, ? offen (! etwas spricht dagegen), ✗ weggelassen</translation>
+    </message>
+    <message>
+      <source>Median share of the frame</source>
+      <translation>Mittlerer Anteil am Bild</translation>
+    </message>
+    <message>
+      <source>Pixels per frame at 1080 lines, against the background</source>
+      <translation>Pixel je Bild bei 1080 Zeilen, gegen den Hintergrund</translation>
+    </message>
+    <message>
+      <source>Share of the frames with masks in which it is seen; of those, in which it is partly hidden</source>
+      <translation>Anteil der Bilder mit Masken, in denen es zu sehen ist; davon die, in denen es teilweise verdeckt ist</translation>
+    </message>
+    <message>
+      <source>Candidate objects</source>
+      <translation>Mögliche Objekte</translation>
+    </message>
+    <message>
       <source>Reason for leaving it out</source>
       <translation>Grund für das Weglassen</translation>
+    </message>
+    <message>
+      <source>What is cut out</source>
+      <translation>Was ausgeschnitten wird</translation>
+    </message>
+    <message>
+      <source>A correction changes what you point at, and goes on from frame to frame until the mask agrees with it.</source>
+      <translation>Eine Korrektur ändert, worauf Sie zeigen, und geht von Bild zu Bild weiter, bis die Maske damit übereinstimmt.</translation>
+    </message>
+    <message>
+      <source>Say why it is left out.</source>
+      <translation>Sagen Sie, warum es weggelassen wird.</translation>
     </message>
     <message>
       <source>object</source>
@@ -544,12 +568,32 @@
       <translation>Malen Sie über das, was nicht dazugehört</translation>
     </message>
     <message>
+      <source>Makes a new object</source>
+      <translation>Macht ein neues Objekt</translation>
+    </message>
+    <message>
+      <source>Puts the selected object's mask right</source>
+      <translation>Berichtigt die Maske des gewählten Objekts</translation>
+    </message>
+    <message>
+      <source>Draws the selected object's mask anew</source>
+      <translation>Zeichnet die Maske des gewählten Objekts neu</translation>
+    </message>
+    <message>
+      <source>An object needs a name.</source>
+      <translation>Ein Objekt braucht einen Namen.</translation>
+    </message>
+    <message>
       <source>{n} of at most {most} objects chosen.</source>
       <translation>{n} von höchstens {most} Objekten gewählt.</translation>
     </message>
     <message>
       <source>There are {n} objects already; reject one first.</source>
       <translation>Es sind schon {n} Objekte; verwerfen Sie erst eines.</translation>
+    </message>
+    <message>
+      <source>Names have {n} characters at most.</source>
+      <translation>Namen haben höchstens {n} Zeichen.</translation>
     </message>
     <message>
       <source>This frame is not on show yet.</source>
@@ -1088,6 +1132,26 @@
       <translation>Schleife</translation>
     </message>
     <message>
+      <source>Leave out</source>
+      <translation>Weglassen</translation>
+    </message>
+    <message>
+      <source>Box</source>
+      <translation>Rechteck</translation>
+    </message>
+    <message>
+      <source>On it</source>
+      <translation>Darauf</translation>
+    </message>
+    <message>
+      <source>Not this</source>
+      <translation>Das nicht</translation>
+    </message>
+    <message>
+      <source>Follow it</source>
+      <translation>Verfolgen</translation>
+    </message>
+    <message>
       <source>Out of view</source>
       <translation>Außerhalb</translation>
     </message>
@@ -1232,6 +1296,10 @@
       <translation>Sehen Sie jede Spur an; geben Sie sie frei oder mit einem Grund zurück.</translation>
     </message>
     <message>
+      <source>{n} objects are chosen, at most {most} are wanted.</source>
+      <translation>{n} Objekte sind gewählt, höchstens {most} sollen es sein.</translation>
+    </message>
+    <message>
       <source>{n} candidates are neither chosen nor rejected.</source>
       <translation>{n} Kandidaten sind weder gewählt noch verworfen.</translation>
     </message>
@@ -1254,6 +1322,10 @@
     <message>
       <source>{n} tracks wait for a decision.</source>
       <translation>{n} Spuren warten auf eine Entscheidung.</translation>
+    </message>
+    <message>
+      <source>Draw</source>
+      <translation>Zeichnen</translation>
     </message>
     <message>
       <source>History</source>
@@ -1437,7 +1509,7 @@
     </message>
     <message>
       <source>No mask? Draw a box around the object, or click and scribble on it, then Cut out. It is followed through the clip.</source>
-      <translation>Keine Maske? Ziehen Sie einen Kasten um das Objekt, oder klicken und kritzeln Sie darauf, dann Ausschneiden. Es wird durch den Clip verfolgt.</translation>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>Points</source>
@@ -3434,6 +3506,74 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Gibt die Tastatur dem Bild und legt Zeichenwerkzeuge weg.</translation>
     </message>
     <message>
+      <source>Choose the object</source>
+      <translation>Objekt wählen</translation>
+    </message>
+    <message>
+      <source>Annotates the selected object.</source>
+      <translation>Das gewählte Objekt wird annotiert.</translation>
+    </message>
+    <message>
+      <source>Leave the object out</source>
+      <translation>Objekt weglassen</translation>
+    </message>
+    <message>
+      <source>For the reason that stands in the panel.</source>
+      <translation>Aus dem Grund, der im Feld steht.</translation>
+    </message>
+    <message>
+      <source>Earlier in the order</source>
+      <translation>Früher in der Reihenfolge</translation>
+    </message>
+    <message>
+      <source>The object and its colour come before others.</source>
+      <translation>Das Objekt und seine Farbe kommen vor anderen.</translation>
+    </message>
+    <message>
+      <source>Later in the order</source>
+      <translation>Später in der Reihenfolge</translation>
+    </message>
+    <message>
+      <source>The object comes after others.</source>
+      <translation>Das Objekt kommt nach anderen.</translation>
+    </message>
+    <message>
+      <source>Draw a box</source>
+      <translation>Rechteck zeichnen</translation>
+    </message>
+    <message>
+      <source>A rectangle round the object.</source>
+      <translation>Ein Rechteck um das Objekt.</translation>
+    </message>
+    <message>
+      <source>Draw on the object</source>
+      <translation>Auf dem Objekt zeichnen</translation>
+    </message>
+    <message>
+      <source>Strokes or clicks on what belongs to it.</source>
+      <translation>Striche oder Klicks auf das, was dazugehört.</translation>
+    </message>
+    <message>
+      <source>Draw beside the object</source>
+      <translation>Neben dem Objekt zeichnen</translation>
+    </message>
+    <message>
+      <source>Strokes on what is not part of it.</source>
+      <translation>Striche auf das, was nicht dazugehört.</translation>
+    </message>
+    <message>
+      <source>Makes a mask of what was drawn, and follows it through the clip.</source>
+      <translation>Macht aus dem Gezeichneten eine Maske und folgt ihr durch den Clip.</translation>
+    </message>
+    <message>
+      <source>Follow the mask through the clip</source>
+      <translation>Maske durch den Clip verfolgen</translation>
+    </message>
+    <message>
+      <source>Into frames for which the clip has no masks.</source>
+      <translation>In Bilder, für die der Clip keine Masken hat.</translation>
+    </message>
+    <message>
       <source>Point 1</source>
       <translation>Punkt 1</translation>
     </message>
@@ -3986,12 +4126,12 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Zehn Schritte an einem Clip, der an Ort und Stelle entsteht.</translation>
     </message>
     <message>
-      <source>Draw the selected mask anew</source>
-      <translation>Gewählte Maske neu zeichnen</translation>
+      <source>Correct the selected mask</source>
+      <translation>Gewählte Maske berichtigen</translation>
     </message>
     <message>
-      <source>Step 1; what is drawn replaces the object's mask.</source>
-      <translation>Schritt 1; was gezeichnet wird, ersetzt die Maske des Objekts.</translation>
+      <source>Step 1; what is drawn puts the object's mask right.</source>
+      <translation>Schritt 1; was gezeichnet wird, berichtigt die Maske des Objekts.</translation>
     </message>
     <message>
       <source>Buttons</source>
@@ -4512,6 +4652,10 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Cut out {name}</source>
       <translation>{name} ausschneiden</translation>
+    </message>
+    <message>
+      <source>New mask for {name}</source>
+      <translation>Neue Maske für {name}</translation>
     </message>
     <message>
       <source>Choose {name}</source>
@@ -6594,6 +6738,22 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>kein Punkt hat einen Ort im Raum</translation>
     </message>
     <message>
+      <source>every frame has masks already</source>
+      <translation>jedes Bild hat schon Masken</translation>
+    </message>
+    <message>
+      <source>correct the mask instead</source>
+      <translation>berichtigen Sie stattdessen die Maske</translation>
+    </message>
+    <message>
+      <source>the object has no mask to follow</source>
+      <translation>das Objekt hat keine Maske, der zu folgen wäre</translation>
+    </message>
+    <message>
+      <source>draw a box where it is seen</source>
+      <translation>ziehen Sie ein Rechteck, wo es zu sehen ist</translation>
+    </message>
+    <message>
       <source>a mask of {mask} frames does not fit a clip of {clip}</source>
       <translation>eine Maske von {mask} Bildern passt nicht zu einem Clip von {clip}</translation>
     </message>
@@ -6604,6 +6764,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>lacks the mask of edit {number}</source>
       <translation>die Maske der Änderung {number} fehlt</translation>
+    </message>
+    <message>
+      <source>frame {frame} shows only what is not part of the object</source>
+      <translation>Bild {frame} zeigt nur, was nicht zum Objekt gehört</translation>
+    </message>
+    <message>
+      <source>draw on the object too, or a box round it</source>
+      <translation>zeichnen Sie auch auf das Objekt oder ein Rechteck darum</translation>
     </message>
     <message>
       <source>give another file</source>

@@ -6,6 +6,7 @@ import numpy as np
 from PySide6.QtTest import QTest
 
 from genmojo_core.clip import folders
+from genmojo_studio.annotate.masks import Purpose
 from genmojo_studio.worker import preparing
 
 _BOX = (60.0, 40.0, 200.0, 160.0)
@@ -25,9 +26,10 @@ def test_an_edited_mask_reaches_the_plan_and_the_run(window, qtbot, told):
     annotate = window.workspaces["annotate"]
     qtbot.waitUntil(lambda: annotate.session is not None and annotate.session.clip is not None, timeout=60_000)
     qtbot.waitUntil(lambda: annotate.session.active[0] == edited, timeout=60_000)
-    qtbot.waitUntil(lambda: annotate.objects.replaced() == edited, timeout=60_000)
+    qtbot.waitUntil(lambda: annotate.objects.target() == (Purpose.CORRECT, edited), timeout=60_000)
     assert annotate.step == 0
     annotate.work.masks.add_box(*_BOX)
+    annotate.work.masks.cut()
     qtbot.waitUntil(lambda: window.state.masks_path is not None, timeout=60_000)
 
     clip = window.state.clip

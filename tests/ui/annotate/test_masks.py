@@ -1,16 +1,21 @@
 """Masks drawn in step 1 are edits: undo brings the other mask back, on the screen, in the file and for runs.
 
-How well objects are cut out is measured in tests/estimate, how corrections spread in test_hand_masks.py.
+How well objects are cut out, and how corrections spread, is told in tests/estimate.
 """
 
 import io
+import shutil
 import sqlite3
 
 import numpy as np
 import pytest
-from annotating import choose_all
+from annotating import at, choose_all, click
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
 
 from genmojo_core.store.project import Project
+from genmojo_studio.annotate.colours import object_colour
+from genmojo_studio.annotate.masks import Purpose
 from genmojo_studio.annotate.session import open_session
 
 WAIT = 120_000
@@ -41,9 +46,10 @@ def cut(workspace, qtbot, box, instead_of=None):
     """Draw a box; instead of an object's mask, or as a new object. Returns the mask's object."""
     if instead_of is not None:
         workspace.session.select(instead_of, 1)
-    workspace.objects.instead.setChecked(instead_of is not None)
+    workspace.objects.set_purpose(Purpose.NEW if instead_of is None else Purpose.ANEW)
     head = workspace.session.project.log.head
     workspace.work.masks.add_box(*box)
+    workspace.work.masks.cut()
     qtbot.waitUntil(lambda: workspace.session.project.log.head != head, timeout=WAIT)
     qtbot.waitUntil(lambda: not workspace.work.masks.busy, timeout=WAIT)
     return workspace.session.active[0]
@@ -137,3 +143,122 @@ def test_a_project_of_before_masks_were_edits_opens_as_it_was(drawing, qtbot, cl
     assert (session.mask_at(0) == one).sum() != mask[0].sum()
     session.undo()
     qtbot.waitUntil(lambda: (session.mask_at(0) == one).sum() == mask[0].sum(), timeout=WAIT)
+
+
+def draw(workspace, *places):
+    """A stroke over the frame with the mouse, raster places."""
+    canvas = workspace.canvas
+    QTest.mousePress(canvas, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, at(workspace, *places[0]))
+    for place in places[1:]:
+        QTest.mouseMove(canvas, at(workspace, *place))
+    QTest.mouseRelease(canvas, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, at(workspace, *places[-1]))
+
+
+def undo_key(workspace):
+    QTest.keyClick(workspace.canvas, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+
+
+def test_what_is_drawn_waits_is_shown_and_is_taken_back_before_any_edit(drawing, qtbot):
+    workspace, _ = drawing
+    session, head = workspace.session, workspace.session.project.log.head
+    x0, y0, x1, y1 = box_of(workspace, session.clip.object_ids[0])
+    middle = ((x0 + x1) / 2, (y0 + y1) / 2)
+    workspace.table.trigger("annotate.object.box")
+    draw(workspace, (x0, y0), middle, (x1, y1))
+    workspace.table.trigger("annotate.object.stroke")
+    draw(workspace, middle, (middle[0] + 4, middle[1]))
+    workspace.table.trigger("annotate.object.not_this")
+    draw(workspace, (x0, y0), (x0 + 3, y0))
+    assert [type(p).__name__ for p in session.sketch] == ["Box", "Scribble", "Scribble"]
+    assert workspace.canvas.picture.sketch == session.sketch, "all of it stays on show"
+    assert workspace.objects.cut.isEnabled() and session.project.log.head == head
+    said = []
+    session.said.connect(said.append)
+    draw(workspace, (-20.0, 5.0))
+    assert len(session.sketch) == 3 and "inside the frame" in said[-1]
+    session.go(1)
+    qtbot.waitUntil(lambda: workspace.screen_link.painted == 1, timeout=WAIT)
+    assert not workspace.canvas.picture.sketch, "it belongs to the frame that it was drawn in"
+    for left in (2, 1, 0):
+        undo_key(workspace)
+        assert len(session.sketch) == left and session.project.log.head == head
+    assert not workspace.objects.cut.isEnabled()
+    workspace.table.trigger("annotate.edit.redo")
+    workspace.table.trigger("annotate.edit.redo")
+    assert len(session.sketch) == 2
+    workspace.table.trigger("annotate.object.cut")
+    qtbot.waitUntil(lambda: session.project.log.head != head, timeout=WAIT)
+    assert not session.sketch and session.frame == 1
+    session.undo()
+    assert session.frame == 0, "where it was drawn"
+
+
+def test_a_correction_starts_from_the_mask_and_leaves_what_nobody_pointed_at(drawing, qtbot):
+    workspace, area = drawing
+    session = workspace.session
+    one, other = session.clip.object_ids.tolist()[:2]
+    number = cut(workspace, qtbot, box_of(workspace, one))
+    before = session.hand_masks[number].copy()
+    session.select(number, 1)
+    workspace.objects.set_purpose(Purpose.CORRECT)
+    rows, columns = np.nonzero(session.cache.mask(0) == other)
+    x, y = float(np.median(columns)), float(np.median(rows))
+    head = session.project.log.head
+    workspace.work.masks.add_stroke(np.array([[x - 3, y], [x + 3, y]]), True)
+    workspace.work.masks.cut()
+    qtbot.waitUntil(lambda: session.project.log.head != head, timeout=WAIT)
+    qtbot.waitUntil(lambda: not workspace.work.masks.busy, timeout=WAIT)
+    after = session.hand_masks[number]
+    scale = after.shape[2] / session.annotation.size[0]
+    assert after[0, int(y * scale), int(x * scale)] and not before[0, int(y * scale), int(x * scale)]
+    assert (after & before).sum() == before.sum(), "adding takes nothing away"
+    session.undo()
+    qtbot.waitUntil(lambda: np.array_equal(session.hand_masks[number], before), timeout=WAIT)
+
+
+def test_only_what_is_not_part_of_it_makes_no_object(drawing, qtbot):
+    workspace, _ = drawing
+    session, said = workspace.session, []
+    head = session.project.log.head
+    session.said.connect(said.append)
+    workspace.work.masks.add_stroke(np.array([[20.0, 20.0]]), False)
+    workspace.work.masks.cut()
+    qtbot.waitUntil(lambda: not workspace.work.masks.busy, timeout=WAIT)
+    assert session.project.log.head == head and len(session.sketch) == 1, "what was drawn is still there"
+    assert "not part of the object" in said[-1]
+
+
+def test_a_click_on_a_mask_selects_its_row_and_colours_match(drawing):
+    workspace, _ = drawing
+    session, page = workspace.session, workspace.objects
+    for number in session.clip.object_ids.tolist():
+        rows, columns = np.nonzero(session.cache.mask(0) == number)
+        k = len(rows) // 2
+        click(workspace, columns[k] + 0.5, rows[k] + 0.5)
+        assert page.current().id == number
+        icon = page.table.item(page.table.currentRow(), 0).icon().pixmap(14, 14).toImage()
+        place = workspace.canvas.picture.contours[number][0]
+        assert icon.pixelColor(2, 7).getRgb()[:3] == tuple(object_colour(place)[:3])
+
+
+def test_masks_of_some_frames_are_followed_into_the_others(drawing, qtbot, clip_folder, tmp_path):
+    workspace, _ = drawing
+    folder = tmp_path / "sparse"
+    shutil.copytree(clip_folder, folder)
+    for path in sorted(p for p in folder.rglob("*.png") if "nnotation" in str(p))[2:]:
+        path.unlink()
+    workspace.close_clip()
+    workspace.open_with(open_session(workspace.state, folder, "Ada", tmp_path / "sparse.genmojo"))
+    page = workspace.objects
+    qtbot.waitUntil(lambda: bool(page.figures), timeout=WAIT)
+    session = workspace.session
+    frames = session.annotation.frames
+    assert page.bare == frames - 2 and all(f.seen == 1.0 for f in page.figures.values())
+    for number in session.clip.object_ids.tolist()[:2]:
+        given = session.mask_at(1) == number
+        session.select(number, 1)
+        workspace.table.trigger("annotate.object.follow")
+        qtbot.waitUntil(lambda number=number: number in session.hand_masks, timeout=WAIT)
+        mask = session.hand_masks[number]
+        assert mask[2:6].any(axis=(1, 2)).all(), "it goes on, until it is hidden"
+        assert abs(int(mask[1].sum()) - int(given.sum())) <= 0.1 * given.sum(), "what was given stays"

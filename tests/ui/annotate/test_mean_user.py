@@ -131,6 +131,7 @@ def test_the_window_closes_in_the_middle_of_it(workspace, qtbot, clip_folder, tm
     if when == "cutting":
         size = workspace.session.annotation.size
         workspace.work.masks.add_box(0.2 * size[0], 0.2 * size[1], 0.5 * size[0], 0.6 * size[1])
+        workspace.work.masks.cut()
     elif when == "reading":
         workspace.close_clip()
         workspace.state.set(clip=None, clip_path=None)

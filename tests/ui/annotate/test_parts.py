@@ -1,9 +1,12 @@
 """Parts of the annotator by themselves: ring of frames, patches, figures, trackability, colours, merge."""
 
+import cv2
 import numpy as np
 import pytest
 
-from genmojo_studio.annotate.candidates import figures
+from genmojo_core.clip import synthetic
+from genmojo_core.clip.clip import Channel
+from genmojo_studio.annotate.candidates import all_figures, camera_path, figures
 from genmojo_studio.annotate.colours import object_colour, point_colour
 from genmojo_studio.annotate.frame_buffers import FrameBuffers
 from genmojo_studio.annotate.mapping import Mapping, fitted
@@ -13,8 +16,6 @@ from genmojo_studio.annotate.trackability import measure
 
 
 def texture(height=80, width=120, seed=0):
-    import cv2
-
     small = np.random.default_rng(seed).integers(0, 255, (height // 4, width // 4), np.uint8)
     grey = cv2.resize(small, (width, height), interpolation=cv2.INTER_CUBIC)
     return np.dstack([grey, grey, grey, np.full_like(grey, 255)])
@@ -163,6 +164,42 @@ def test_candidates_tell_size_motion_and_hiding():
     still = np.zeros_like(labels)
     still[:, 40:60, 10:30] = 1
     assert figures(still, 1).advice == "static" and figures(still, 2).advice == "hidden"
+    assert figures(still[:1], 1).advice == "", "one frame tells nothing of motion"
+
+
+def test_candidates_that_are_mostly_covered_are_told_from_those_that_come_nearer():
+    labels = np.zeros((20, 100, 200), np.uint8)
+    for t in range(20):
+        labels[t, 40 : 60 if t < 4 else 46, 10 + 2 * t : 30 + 2 * t] = 1
+    assert figures(labels, 1).covered == pytest.approx(16 / 20) and figures(labels, 1).advice == "covered"
+    nearer = np.zeros_like(labels)
+    for t in range(20):
+        half = 5 * 1.08**t  # the area grows to eighteen times
+        nearer[t, round(50 - half) : round(50 + half), round(50 + 2 * t - half) : round(50 + 2 * t + half)] = 1
+    assert figures(nearer, 1).covered < 0.2 and figures(nearer, 1).advice == ""
+
+
+def test_frames_without_a_mask_do_not_count_as_hidden():
+    labels = np.zeros((10, 100, 200), np.uint8)
+    labels[3, 40:60, 10:30] = 1
+    assert figures(labels, 1).advice == "hidden"
+    assert figures(labels, 1, np.arange(10) == 3).seen == 1.0 and figures(labels, 1, np.arange(10) == 3).advice == ""
+
+
+def test_motion_is_told_against_the_background_of_a_camera_that_pans():
+    rng = np.random.default_rng(0)
+    wide = cv2.GaussianBlur(rng.integers(0, 256, (120, 400), np.uint8), (0, 0), 1.5)
+    clip, _ = synthetic.generate("crossing-shapes")
+    frames = np.stack([np.repeat(wide[:, 5 * t : 5 * t + 200, None], 3, axis=2) for t in range(12)])
+    labels = np.zeros((2, 12, 120, 200), np.uint8)
+    for t in range(12):
+        labels[0, t, 40:60, 100 - 5 * t : 120 - 5 * t] = 1  # stands in the world
+        labels[1, t, 40:60, 100:120] = 1  # stays in the middle of the picture
+    for k, (motion, advice) in enumerate(((0.0, "static"), (5 * 1080 / 120, ""))):
+        channel = Channel(labels[k], np.ones(labels[k].shape, bool), "given: test")
+        panned = clip.with_channels(frames=frames, masks=channel, object_ids=np.array([1]), object_names=("it",))
+        found = all_figures(panned, np.ones(12, bool), camera_path(panned))[1]
+        assert found.motion == pytest.approx(motion, abs=1.5) and found.advice == advice
 
 
 def test_corners_are_trackable_edges_slide_and_flat_places_are_lost():

@@ -93,6 +93,7 @@ def test_a_scene_is_optimised_with_the_masks_cut_by_hand(workspace, qtbot):
     place_points(workspace, each=1)
     frame = workspace.session.annotation.size
     workspace.work.masks.add_box(0.3 * frame[0], 0.3 * frame[1], 0.6 * frame[0], 0.7 * frame[1])
+    workspace.work.masks.cut()
     qtbot.waitUntil(lambda: bool(workspace.session.hand_masks), timeout=120_000)
     (own,) = workspace.session.hand_masks
     dialog = opened(workspace)
