@@ -83,8 +83,8 @@ STOPS = (
         lambda w: w.objects.cut,
         mark("More objects"),
         mark(
-            "No mask? Draw a box around the object, or click and scribble on "
-            "it, then Cut out. It is followed through the clip."
+            "No mask, or a wrong one? Draw a box around the object, click and scribble on "
+            "it and beside it, then Cut out. It is followed through the clip."
         ),
     ),
     Stop(

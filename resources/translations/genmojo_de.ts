@@ -1508,8 +1508,8 @@
       <translation>Weitere Objekte</translation>
     </message>
     <message>
-      <source>No mask? Draw a box around the object, or click and scribble on it, then Cut out. It is followed through the clip.</source>
-      <translation type="unfinished" />
+      <source>No mask, or a wrong one? Draw a box around the object, click and scribble on it and beside it, then Cut out. It is followed through the clip.</source>
+      <translation>Keine Maske, oder eine falsche? Ziehen Sie ein Rechteck um das Objekt, klicken und zeichnen Sie darauf und daneben, dann „Ausschneiden“. Es wird durch den Clip verfolgt.</translation>
     </message>
     <message>
       <source>Points</source>
