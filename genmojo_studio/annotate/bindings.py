@@ -37,6 +37,7 @@ def bind(workspace: AnnotateWorkspace) -> None:
         held.add(f"annotate.point.{name}", hands.painter(state), hands.tapper(state), hands.paint_end)
     held.add("annotate.view.loupe", hands.loupe_on, hands.loupe_toggle, hands.loupe_off)
     held.add("annotate.view.hide", hands.hide, hands.hide_toggle, hands.show)
+    workspace.work.begin()
 
 
 def _connect(w: AnnotateWorkspace) -> None:

@@ -121,8 +121,9 @@ class Tour(QFrame):
         self._w.tour = None
         self._place.stop()
         self._praise.stop()
-        self.frame.deleteLater()
-        self.deleteLater()
+        for part in (self.frame, self):
+            part.hide()
+            part.deleteLater()
 
     def event(self, event: QEvent) -> bool:
         """Escape is the tour's own key while it has the keyboard."""

@@ -62,6 +62,9 @@ class Work(QObject):
         self._camera: np.ndarray | None = None  # once known; masks change it hardly
         self._ready = False
         self._closed = False
+
+    def begin(self) -> None:
+        """Read the clip, soon; called when everybody listens, for what is ready is said once."""
         QTimer.singleShot(0, self._read_clip)
 
     def close(self) -> None:

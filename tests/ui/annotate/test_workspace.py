@@ -290,6 +290,16 @@ def test_another_clip_takes_the_place_of_the_first_and_nothing_is_lost(workspace
     again.close()
 
 
+def test_figures_come_however_slowly_a_clip_is_put_on_show(workspace, qtbot, clip_folder):
+    """The window answers between the parts of opening: what a thread finds meanwhile must not be lost."""
+    before = workspace.work
+    for _ in workspace.opening(clip_folder):
+        if workspace.work is not before:
+            qtbot.wait(20)
+            qtbot.waitUntil(lambda: not workspace.work.tasks.busy, timeout=60_000)
+    qtbot.waitUntil(lambda: bool(workspace.objects.figures), timeout=60_000)
+
+
 def test_tracking_one_frame_matches_the_pixels(workspace, qtbot):
     """Alt+Right takes the point where the object went, not where it was."""
     choose_all(workspace)
