@@ -9,16 +9,20 @@ import numpy as np
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.optimise.motion import ObjectMotion, improved_depth
+from genmojo_core.optimise.poses import project
 from genmojo_core.tracks.model import VISIBLE, PointTracks
 
 _REACH = 1  # held px around a point in which its depth may be read
-_SHARE = 0.4  # what annotated tracks count together, in what the object's own hundreds of tracks do
+_SHARE = 0.4  # what annotated tracks count together, in what the object's own hundreds of tracks do, if all contradict
+_LET_PASS = 3.0  # px at 1080 lines that a person accepts as right
+_HELD = 0.5  # held px, which matches are not surer of
 
 
 def with_annotated(clip: Clip, motions: Sequence[ObjectMotion]) -> list[ObjectMotion]:
     """The motions with the clip's given tracks added to their own: sure where seen, silent elsewhere.
 
-    They are few beside the motion's own tracks, so each counts for as many as makes all of an object's together heard.
+    They are few beside the motion's own tracks, so where the motion is off by more than a person lets pass, each counts
+    for as many as makes all of an object's together heard; elsewhere people only say that it is right.
 
     A track's place in space is read from the depth of the frame nearest the reference frame in which it is seen and
     the object's pose is known; a track without such a frame is left out. Without given tracks nothing changes.
@@ -42,12 +46,20 @@ def _added(clip: Clip, tracks: PointTracks, motion: ObjectMotion, owner: int) ->
         return motion
     seen = tracks.state[rows] == VISIBLE
     xy = np.where(seen[..., None], tracks.xy[rows], 0.0)
-    each = max(1.0, _SHARE * float(motion.track_conf.sum()) / max(int(seen.sum()), 1))
+    loud = max(1.0, _SHARE * float(motion.track_conf.sum()) / max(int(seen.sum()), 1))
+    missed = _missed(clip, motion, np.stack(points), xy) > max(_LET_PASS * clip.size[1] / 1080, _HELD)
     return replace(
         motion, track_xyz=np.concatenate([motion.track_xyz, np.stack(points)]),
         track_xy=np.concatenate([motion.track_xy, xy]),
-        track_conf=np.concatenate([motion.track_conf, each * seen]),
+        track_conf=np.concatenate([motion.track_conf, np.where(missed, loud, 1.0) * seen]),
     )  # fmt: skip
+
+
+def _missed(clip: Clip, motion: ObjectMotion, places: np.ndarray, xy: np.ndarray) -> np.ndarray:  # (P, T) held px
+    """How far the motion brings points (P, 3) of the reference frame from where people saw them, xy (P, T, 2)."""
+    cameras = clip.cameras.value
+    went = [project(cameras, t, motion.points_at(t, places)) for t in range(len(clip))]
+    return np.linalg.norm(np.stack(went, axis=1) - xy, axis=2)
 
 
 def _in_space(clip: Clip, tracks: PointTracks, row: int, motion: ObjectMotion) -> np.ndarray | None:  # (3,)

@@ -52,8 +52,8 @@ class TrackSheet:
     @staticmethod
     def of_annotation(annotation: Annotation, frame_names: tuple[str, ...] = (), seconds: np.ndarray | None = None,
                       which: Which = "all") -> TrackSheet:  # fmt: skip
-        """Tracks of an annotation by object and number: all, those not rejected, or the approved ones only."""
-        infos = sorted(annotation.tracks.values(), key=lambda i: (i.object, i.number, i.id))
+        """Active tracks of an annotation by object and number: all, those not rejected, or the approved ones only."""
+        infos = sorted(annotation.active(), key=lambda i: (i.object, i.number, i.id))
         infos = [i for i in infos if taken(i, which)]
         tracks = annotation.to_tracks([i.id for i in infos])
         names = {o.id: o.name for o in annotation.objects.values()}

@@ -161,12 +161,13 @@ class Annotation:
         self.revision = 0  # grows with every edit done or undone
         self._rows: dict[int, int] = {}
         self._ids = np.zeros(0, np.int64)  # row -> track id, -1 where free
+        self._aside = np.zeros(0, bool)  # row -> whether its track's object was rejected
         self._cells = _blank(frames, 0)
 
     def at(self, t: int) -> FrameView:
-        """Every track that has a state in frame t, in order of rows. Costs the same for any number of frames."""
+        """Every active track that has a state in frame t, in order of rows. Costs the same for any number of frames."""
         c = self._cells
-        rows = np.flatnonzero(c.state[t])
+        rows = np.flatnonzero((c.state[t] > 0) & ~self._aside)
         return FrameView(self._ids.take(rows), rows, *(a[t].take(rows, 0) for a in (c.xy, c.state, c.flags, c.conf)))
 
     def track(self, track: int) -> Cells:
@@ -204,6 +205,10 @@ class Annotation:
         """Tracks of an object by their number."""
         return sorted((i for i in self.tracks.values() if i.object == object_id), key=lambda i: (i.number, i.id))
 
+    def active(self) -> list[TrackInfo]:
+        """Tracks that are worked on and given away: all but those of rejected objects, which are put aside."""
+        return [i for i in self.tracks.values() if not self._is_aside(i)]
+
     def chosen_objects(self) -> list[ObjectInfo]:
         """Objects that are annotated, in their order."""
         return sorted((o for o in self.objects.values() if o.status == "chosen"), key=lambda o: (o.order, o.id))
@@ -218,10 +223,10 @@ class Annotation:
         self.proposals.setdefault(track, {})[proposal.tracker] = proposal
 
     def to_tracks(self, tracks: list[int] | None = None) -> PointTracks:
-        """Tracks as `PointTracks`, by default all, ordered by object, number and id; unknown positions are NaN."""
+        """Tracks as `PointTracks`, by default the active ones by object, number and id; unknown positions are NaN."""
         if tracks is None:
             place = {o.id: n for n, o in enumerate(self.chosen_objects())}
-            infos = sorted(self.tracks.values(), key=lambda i: (place.get(i.object, len(place)), i.number, i.id))
+            infos = sorted(self.active(), key=lambda i: (place.get(i.object, len(place)), i.number, i.id))
             tracks = [i.id for i in infos]
         rows = [self.row(track) for track in tracks]
         c = Cells(*(np.moveaxis(a[:, rows], 0, 1).copy() for a in self._cells.arrays()))
@@ -251,6 +256,8 @@ class Annotation:
     def put_object(self, object_id: int, info: ObjectInfo | None) -> None:
         """Set or remove an object."""
         _put(self.objects, object_id, info)
+        for track in self.tracks_of(object_id):
+            self._aside[self._rows[track.id]] = self._is_aside(track)
 
     def put_track(self, track: int, info: TrackInfo | None) -> None:
         """Set or remove a track's description; a removed one loses its row, a new one begins without any state."""
@@ -258,7 +265,7 @@ class Annotation:
             row = self._rows.pop(track)
             for array in self._cells.arrays():
                 array[:, row] = 0
-            self._ids[row] = -1
+            self._ids[row], self._aside[row] = -1, False
         elif info is not None and track not in self._rows:
             free = np.flatnonzero(self._ids < 0)
             if not len(free):
@@ -267,6 +274,8 @@ class Annotation:
             self._rows[track] = int(free[0])
             self._ids[free[0]] = track
         _put(self.tracks, track, info)
+        if info is not None:
+            self._aside[self._rows[track]] = self._is_aside(info)
 
     def put_meta(self, key: str, value: str | None) -> None:
         """Set or remove a note about the whole annotation."""
@@ -281,6 +290,11 @@ class Annotation:
             new[:, : len(self._ids)] = old
         self._cells = grown
         self._ids = np.concatenate([self._ids, np.full(count - len(self._ids), -1, np.int64)])
+        self._aside = np.concatenate([self._aside, np.zeros(count - len(self._aside), bool)])
+
+    def _is_aside(self, track: TrackInfo) -> bool:
+        owner = self.objects.get(track.object)
+        return owner is not None and owner.status == "rejected"
 
     def notify(self, touched: Touched) -> None:
         """Count the change and tell every listener."""

@@ -29,14 +29,14 @@ def clip_figures(annotation: Annotation) -> dict[str, Any]:
 
     motion is the mean step between consecutive visible frames in pixels of a 256 x 256 picture.
     """
-    rows = [track_figures(annotation, track) for track in annotation.tracks]
+    rows = [track_figures(annotation, info.id) for info in annotation.active()]
     means = {key: float(np.mean([r[key] for r in rows])) for key in rows[0]} if rows else {}
     reviews: dict[str, int] = {}
     people: dict[str, int] = {}
-    for info in annotation.tracks.values():
+    for info in annotation.active():
         reviews[info.review] = reviews.get(info.review, 0) + 1
         people[info.person] = people.get(info.person, 0) + 1
-    returned = sum(info.rounds > 0 for info in annotation.tracks.values())
+    returned = sum(info.rounds > 0 for info in annotation.active())
     return {"objects": len(annotation.chosen_objects()), "tracks": len(rows), "frames": annotation.frames, **means,
             "motion": _motion(annotation), "reviews": reviews, "people": people,
             "reopened": returned / max(len(rows), 1), "consent": annotation.meta.get("consent", "")}  # fmt: skip
@@ -45,8 +45,8 @@ def clip_figures(annotation: Annotation) -> dict[str, Any]:
 def _motion(annotation: Annotation) -> float:
     steps = []
     scale = 256.0 / np.array(annotation.size)
-    for track in annotation.tracks:
-        cells = annotation.track(track)
+    for info in annotation.active():
+        cells = annotation.track(info.id)
         both = (cells.state[1:] == VISIBLE) & (cells.state[:-1] == VISIBLE)
         steps.extend(np.linalg.norm(np.diff(cells.xy, axis=0)[both] * scale, axis=1).tolist())
     return float(np.mean(steps)) if steps else 0.0

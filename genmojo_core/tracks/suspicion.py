@@ -113,7 +113,7 @@ def assess(
     """
     trust = (calibration or Calibration()).trust()
     found = {}
-    for track in annotation.tracks if tracks is None else tracks:
+    for track in [i.id for i in annotation.active()] if tracks is None else tracks:
         cells = annotation.track(track)
         others = [annotation.track(i.id) for i in annotation.tracks_of(annotation.tracks[track].object)
                   if i.id != track]  # fmt: skip

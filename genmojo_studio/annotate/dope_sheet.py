@@ -289,9 +289,9 @@ class DopeSheet(QAbstractScrollArea):
         session = self._session
         if self.by_suspicion:
             worst = {t: float(v.max(initial=0)) for t, v in session.suspicion.items()}
-            return sorted(session.annotation.tracks, key=lambda t: -worst.get(t, 0.0))
+            return sorted((i.id for i in session.annotation.active()), key=lambda t: -worst.get(t, 0.0))
         places = {o.id: n for n, o in enumerate(session.objects())}
-        infos = session.annotation.tracks.values()
+        infos = session.annotation.active()
         return [i.id for i in sorted(infos, key=lambda i: (places.get(i.object, 99), i.object, i.number))]
 
     def _dirty(self, _what: object = None) -> None:

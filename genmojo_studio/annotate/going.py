@@ -77,7 +77,8 @@ class Going:
 
     def worst(self) -> None:
         """The worst spot that was not shown yet; after the last it begins again."""
-        left = [spot for spot in self.spots if spot not in self._seen and spot.track in self._s.annotation.tracks]
+        active = {i.id for i in self._s.annotation.active()}
+        left = [spot for spot in self.spots if spot not in self._seen and spot.track in active]
         if not left and self.spots:
             self._seen, left = [], self.spots
         if not left:

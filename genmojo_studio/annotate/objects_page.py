@@ -140,6 +140,10 @@ class ObjectsPage(QWidget):
             known = {tr(reason): reason for reason in REASONS}
             reason = known.get(text, text)
             self._put([replace(info, status="rejected", order=0, reason=reason)], say("reject_object", name=info.name))
+            aside = len(self._session.annotation.tracks_of(info.id))
+            if aside:
+                self._session.said.emit(tr("{n} tracks of {name} are put aside; they come back if you choose it "
+                                           "again.").format(n=aside, name=info.name))  # fmt: skip
 
     def reorder(self, step: int) -> None:
         """Earlier (-1) or later (1) in the order."""

@@ -98,7 +98,7 @@ class ReviewPage(QWidget):
             return
         session = self._session
         counts: dict[str, int] = {}
-        for info in session.annotation.tracks.values():
+        for info in session.annotation.active():
             counts[info.review] = counts.get(info.review, 0) + 1
         parts = [f"{n} {review_name(name)}" for name, n in counts.items()]
         self.summary.setText(", ".join(parts) or tr("No tracks yet."))
@@ -118,7 +118,7 @@ class ReviewPage(QWidget):
         """Go on to the next track without a decision."""
         session = self._session
         done = ("approved", "rejected", "needs_fix")
-        waiting = [i for i in session.annotation.tracks.values() if i.review not in done]
+        waiting = [i for i in session.annotation.active() if i.review not in done]
         if waiting:
             session.select(waiting[0].object, waiting[0].number)
 

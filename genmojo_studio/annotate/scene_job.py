@@ -87,7 +87,7 @@ class SceneJob(QObject):
 
 def said_by_people(annotation: Annotation) -> PointTracks | None:
     """What people placed or accepted, source pixels; state NONE wherever nobody spoke. None without any of it."""
-    ids = [track for track in annotation.tracks if len(annotation.keys(track))]
+    ids = [info.id for info in annotation.active() if len(annotation.keys(info.id))]
     if not ids:
         return None
     cells = [annotation.track(track) for track in ids]

@@ -59,35 +59,38 @@ def _objects_missing(annotation: Annotation, points: int, stride: int) -> str:
 
 def _points_missing(annotation: Annotation, points: int, stride: int) -> str:
     lacking = sum(max(0, points - len(annotation.tracks_of(o.id))) for o in annotation.chosen_objects())
-    if lacking or not annotation.tracks:
+    tracks = annotation.active()
+    if lacking or not tracks:
         return tr("{n} points are still to be placed.").format(n=lacking or points)
     blank = 0
-    for track in annotation.tracks:
-        blank += bool((annotation.track(track).state == NONE).any())
+    for info in tracks:
+        blank += bool((annotation.track(info.id).state == NONE).any())
         if blank >= MANY:
             return tr("More than {n} tracks are not seeded.").format(n=MANY)
     return tr("{n} tracks are not seeded.").format(n=blank) if blank else ""
 
 
 def _refine_missing(annotation: Annotation, points: int, stride: int) -> str:
-    if not annotation.tracks:
+    tracks = annotation.active()
+    if not tracks:
         return tr("{n} points are still to be placed.").format(n=points)
-    returned = [i for i in annotation.tracks.values() if i.review == "needs_fix"]
+    returned = [i for i in tracks if i.review == "needs_fix"]
     if returned:
         return tr("{n} tracks came back from the review.").format(n=len(returned))
     frames = np.arange(0, annotation.frames, stride)
     open_frames = 0
-    for track, info in annotation.tracks.items():
+    for info in tracks:
         if not info.locked:
-            open_frames += int(((annotation.track(track).flags[frames] & (KEY | CONFIRMED)) == 0).sum())
+            open_frames += int(((annotation.track(info.id).flags[frames] & (KEY | CONFIRMED)) == 0).sum())
         if open_frames >= 10 * MANY:  # said after every edit: never a walk through millions of cells
             return tr("More than {n} points in frames of the stride are not accepted.").format(n=10 * MANY)
     return tr("{n} points in frames of the stride are not accepted.").format(n=open_frames) if open_frames else ""
 
 
 def _review_missing(annotation: Annotation, points: int, stride: int) -> str:
-    left = [i for i in annotation.tracks.values() if i.review not in ("approved", "rejected")]
-    if left or not annotation.tracks:
+    tracks = annotation.active()
+    left = [i for i in tracks if i.review not in ("approved", "rejected")]
+    if left or not tracks:
         return tr("{n} tracks wait for a decision.").format(n=len(left))
     return ""
 

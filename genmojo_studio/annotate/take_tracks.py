@@ -43,7 +43,7 @@ class ExportDialog(QDialog):
         self.format, self.which = QComboBox(), QComboBox()
         for form in track_files.FORMATS:
             self.format.addItem(f"{form.title} (.{form.ending})", form)
-        infos = session.annotation.tracks.values()
+        infos = session.annotation.active()
         titles = {"not-rejected": tr("all but rejected ones ({n})"), "all": tr("all ({n})"),
                   "approved": tr("approved ones only ({n})")}  # fmt: skip
         for which in WHICH:
@@ -209,7 +209,7 @@ def _choose_file(workspace: AnnotateWorkspace, dialog: ExportDialog) -> None:
     names = frame_names(info.path)
     names = names if len(names) == session.annotation.frames else ()
     sheet = TrackSheet.of_annotation(session.annotation, names, info.seconds, which)
-    left = len(session.annotation.tracks) - len(sheet.numbers)
+    left = len(session.annotation.active()) - len(sheet.numbers)
     parts = [tr("Exported {n} tracks: {name}").format(n=len(sheet.numbers), name=path)]
     if left:
         parts.append(tr("{n} left out by their review").format(n=left))

@@ -250,9 +250,9 @@ class AnnotateWorkspace(QMainWindow):
         if step.clicks:
             self.objects.use_tool(None)
         self.canvas.places = step.places_points
-        tracks = self.session.annotation.tracks
+        tracks = self.session.annotation.active()
         if step.needs_track and self.session.track is None and tracks:
-            self.session.select_track(next(iter(tracks)))
+            self.session.select_track(tracks[0].id)
         if step.places_points and self.hands is not None:
             self.hands.placing.begin()
         self.restore_layout()

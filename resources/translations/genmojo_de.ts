@@ -596,6 +596,10 @@
       <translation>Namen haben höchstens {n} Zeichen.</translation>
     </message>
     <message>
+      <source>{n} tracks of {name} are put aside; they come back if you choose it again.</source>
+      <translation>{n} Spuren von {name} sind beiseitegelegt; sie kommen zurück, wenn es wieder gewählt wird.</translation>
+    </message>
+    <message>
       <source>This frame is not on show yet.</source>
       <translation>Dieses Bild ist noch nicht zu sehen.</translation>
     </message>
