@@ -46,7 +46,8 @@ class Queries:
     @staticmethod
     def of(annotation: Annotation, tracks: list[int] | None = None) -> tuple[list[int], Queries]:
         """The first key of every track (or of some); tracks without a key are left out. Returns ids and queries."""
-        ids = [i for i in ([t.id for t in annotation.active()] if tracks is None else tracks) if len(annotation.keys(i))]
+        asked = [info.id for info in annotation.active()] if tracks is None else tracks
+        ids = [i for i in asked if len(annotation.keys(i))]
         t = np.array([annotation.keys(i)[0] for i in ids], np.int64)
         xy = np.array([annotation.track(i).xy[f] for i, f in zip(ids, t, strict=True)], np.float64).reshape(-1, 2)
         return ids, Queries(t, xy, np.array([annotation.tracks[i].object for i in ids], np.int64))
