@@ -1,11 +1,11 @@
-"""All panels of a workspace away at once, so that the pictures fill the window, and back as they were."""
+"""Panels of a workspace: all away at once, so that the pictures fill the window, and back; pages in one panel."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import QByteArray
-from PySide6.QtWidgets import QDockWidget, QMainWindow
+from PySide6.QtCore import QByteArray, QSize
+from PySide6.QtWidgets import QDockWidget, QMainWindow, QStackedWidget
 
 from genmojo_studio.settings import Settings
 
@@ -55,3 +55,24 @@ class Panels:
         self._shown = self._window.saveState(self._version)
         for dock in self._docks.values():
             dock.hide()
+
+
+class Pages(QStackedWidget):
+    """Pages of which only the one on show takes room; the others may be wider."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.currentChanged.connect(self._turned)
+
+    def sizeHint(self) -> QSize:
+        """That of the page on show."""
+        page = self.currentWidget()
+        return super().sizeHint() if page is None else page.sizeHint()
+
+    def minimumSizeHint(self) -> QSize:
+        """That of the page on show."""
+        page = self.currentWidget()
+        return super().minimumSizeHint() if page is None else page.minimumSizeHint()
+
+    def _turned(self, _place: int) -> None:
+        self.updateGeometry()

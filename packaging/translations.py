@@ -28,7 +28,12 @@ FAULTS = FOLDER / "faults.json"
 
 
 def source_texts() -> list[str]:
-    """All English texts, in the order of the files."""
+    """All English texts, those of faults last."""
+    return list(dict.fromkeys([*app_texts(), *fault_texts(ROOT)]))
+
+
+def app_texts() -> list[str]:
+    """English texts that the app shows as they stand, in the order of the files."""
     texts: dict[str, None] = {}
     for path in sorted((ROOT / "genmojo_studio").rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
@@ -43,7 +48,7 @@ def source_texts() -> list[str]:
     from genmojo_core.effects.texts import TEXTS, UNITS
     from genmojo_core.sentences import SENTENCES
 
-    return list(texts | dict.fromkeys([*TEXTS.values(), *UNITS, *SENTENCES.values(), *fault_texts(ROOT)]))
+    return list(texts | dict.fromkeys([*TEXTS.values(), *UNITS, *SENTENCES.values()]))
 
 
 def update(language: str, texts: list[str]) -> list[str]:

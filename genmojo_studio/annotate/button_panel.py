@@ -75,13 +75,16 @@ class ButtonPanel(QScrollArea):
         """Keys, ticks and what is possible."""
         for name, button in self._buttons.items():
             action = self._actions[name]
-            key = next(iter(self._actions.keys(name)), "")
+            key = short_key(next(iter(self._actions.keys(name)), ""))
             short = tr(SHORT.get(name.removeprefix("annotate."), action.text))
             button.setText(short)
-            button.setKey(QKeySequence(key).toString(QKeySequence.SequenceFormat.NativeText))
-            button.setToolTip(f"{tr(action.text)}. {tr(action.help)}")
+            button.setKey(key)
+            button.setToolTip(f"{tr(action.text)}. {tr(action.help)}" + (f"  ({key})" if key else ""))
             button.setEnabled(self._actions.is_enabled(name))
             button.setChecked(self._actions.is_checked(name))
+        inside = self.widget()
+        if inside is not None:
+            self.setMinimumWidth(inside.minimumSizeHint().width() + self.verticalScrollBar().sizeHint().width())
 
     def _button(self, name: str) -> KeyButton:
         button = KeyButton()
@@ -100,7 +103,7 @@ class ButtonPanel(QScrollArea):
 
 
 class KeyButton(QToolButton):
-    """A button with its text at the left and its key, dimmed, at the right."""
+    """A button with its text at the left and, where there is room, its key, dimmed, at the right."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -117,8 +120,12 @@ class KeyButton(QToolButton):
         return QSize(wide, super().sizeHint().height())
 
     def minimumSizeHint(self) -> QSize:
-        """The text may be cut short, the key not."""
-        return QSize(60, self.sizeHint().height())
+        """The text is never cut short; the key stands in the tool tip too."""
+        return QSize(self.fontMetrics().horizontalAdvance(self.text()) + 20, self.sizeHint().height())
+
+    def shows_key(self) -> bool:
+        """Whether there is room for the key beside the text."""
+        return self.sizeHint().width() - 8 <= self.width()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """The frame of a tool button, then the two texts."""
@@ -130,13 +137,28 @@ class KeyButton(QToolButton):
         area = QRect(self.rect()).adjusted(9, 0, -9, 0)
         role = QPalette.ColorRole.HighlightedText if self.isChecked() else QPalette.ColorRole.ButtonText
         group = QPalette.ColorGroup.Normal if self.isEnabled() else QPalette.ColorGroup.Disabled
-        room = area.width() - self.fontMetrics().horizontalAdvance(self._key) - 8
-        text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, room)
         painter.setPen(self.palette().color(group, role))
-        painter.drawText(area, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
-        painter.setOpacity(0.6)
-        painter.drawText(area, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, self._key)
+        painter.drawText(area, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, self.text())
+        if self.shows_key():
+            painter.setOpacity(0.6)
+            painter.drawText(area, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, self._key)
         painter.end()
+
+
+_SIGNS = {"Shift": "⇧", "Return": "⏎", "Enter": "⏎", "Left": "←", "Right": "→", "Up": "↑", "Down": "↓"}
+
+
+def short_key(keys: str) -> str:
+    """A key sequence in the person's language, with signs for the long names."""
+    if not keys:
+        return ""
+    held, key = ([*keys[:-2].split("+")], "+") if keys.endswith("+") else (keys.split("+")[:-1], keys.split("+")[-1])
+    shown = [_SIGNS.get(word) or _native(f"{word}+A").removesuffix("+A") for word in held if word]
+    return "+".join([*shown, _SIGNS.get(key) or _native(key)])
+
+
+def _native(keys: str) -> str:
+    return QKeySequence(keys).toString(QKeySequence.SequenceFormat.NativeText)
 
 
 class StepBar(QWidget):

@@ -46,6 +46,8 @@ class ReviewPage(QWidget):
         self.merge_button, self.log_button = QPushButton(tr("Second annotator…")), QPushButton(tr("Log, statistics…"))
         self.history = QListWidget()
         self.history.setAccessibleName(tr("History of the track"))
+        self.history.setWordWrap(True)
+        self.history.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._arrange()
         session.edited.connect(self.refresh)
         session.selected.connect(self.refresh)

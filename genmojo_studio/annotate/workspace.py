@@ -41,7 +41,7 @@ from genmojo_studio.annotate.tour import Tour, begin
 from genmojo_studio.annotate.tour_clip import TourClip
 from genmojo_studio.annotate.trackability import measure
 from genmojo_studio.annotate.work import Work
-from genmojo_studio.panels import Panels
+from genmojo_studio.panels import Pages, Panels
 from genmojo_studio.settings import Settings
 from genmojo_studio.state import AppState
 from genmojo_studio.translate import tr
@@ -141,7 +141,7 @@ class AnnotateWorkspace(QMainWindow):
         yield
         self.buttons, self.play = ButtonPanel(self.table), PlayPanel(session, self.table)
         yield
-        self.pages = QStackedWidget()
+        self.pages = Pages()
         self.objects, self.points = ObjectsPage(session), PointsPage(session)
         yield
         self.refine, self.review = RefinePage(session), ReviewPage(session)

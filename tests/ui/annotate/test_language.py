@@ -5,6 +5,7 @@ not covered, nor texts that only a fault of a file brings up (tests/test_sentenc
 """
 
 import importlib
+import json
 import re
 from pathlib import Path
 
@@ -32,6 +33,7 @@ from genmojo_core.tracks.edit_tracks import swap
 from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE
 from genmojo_studio import translate
 from genmojo_studio.annotate import verbs
+from genmojo_studio.annotate.button_panel import KeyButton
 from genmojo_studio.annotate.log_dialog import LogDialog
 from genmojo_studio.annotate.points_page import TEMPLATES
 from genmojo_studio.annotate.seed_dialog import SeedDialog
@@ -104,7 +106,8 @@ def bare(text, names):
 
 def known_texts(monkeypatch):
     monkeypatch.syspath_prepend(str(Path(__file__).resolve().parents[3] / "packaging"))
-    return set(importlib.import_module("translations").source_texts())
+    faults = json.loads((translate.FOLDER / "faults.json").read_text("utf-8"))
+    return {"", *importlib.import_module("translations").app_texts(), *faults}
 
 
 def work_through(workspace, qtbot):
@@ -171,26 +174,52 @@ def test_every_text_of_the_annotator_is_translated_and_known(marks, request, qtb
         left |= {t: bare(t, names) for t in shown(dialog)}
         dialog.deleteLater()
     assert not {text: words for text, words in left.items() if words}
-    unknown = marks.asked - known_texts(monkeypatch) - {""}
+    unknown = marks.asked - known_texts(monkeypatch)
     assert not unknown
 
 
-def test_faults_and_numbers_are_german(qapp):
+@pytest.fixture
+def german(qapp):
     translators = translate.install("de")
-    try:
-        locked = GenmojoError("argument", f"{say('point_of', number=1, name='key')} is locked", hint="unlock it first")
-        assert translate.fault(locked) == "Punkt 1 von key ist gesperrt; entsperren Sie sie erst."
-        said = GenmojoError(
-            "schema", "has 5 keys, allowed are 1 to 4", "C:/a: b; c.json", "put the keys in order of time"
-        )
-        german = "hat 5 Schlüssel, erlaubt sind 1 bis 4; ordnen Sie die Schlüssel nach der Zeit."
-        assert translate.fault(said) == translate.fault(said.sentence()) == f"C:/a: b; c.json: {german}"
-        assert translate.fault("a.npz: is 3 > 2; who knows.") == "a.npz: is 3 > 2; who knows."
-        words = say("depth_steadied", percent=2.5)
-        assert "2,5 %" in translate.told(words) and translate.decimal(0.25, ".1%") == "25,0%"
-        saved = translate.tr("{n} min of optimising, ready in about {m:.1f} min").format(n=1, m=1.25)
-        assert saved.endswith("1,2 min")
-    finally:
-        for translator in translators:
-            QCoreApplication.removeTranslator(translator)
-        QLocale.setDefault(QLocale.system())
+    yield
+    for translator in translators:
+        QCoreApplication.removeTranslator(translator)
+    QLocale.setDefault(QLocale.system())
+
+
+def test_faults_and_numbers_are_german(german):
+    locked = GenmojoError("argument", f"{say('point_of', number=1, name='key')} is locked", hint="unlock it first")
+    assert translate.fault(locked) == "Punkt 1 von key ist gesperrt; entsperren Sie sie erst."
+    said = GenmojoError("schema", "has 5 keys, allowed are 1 to 4", "C:/a: b; c.json", "put the keys in order of time")
+    german = "hat 5 Schlüssel, erlaubt sind 1 bis 4; ordnen Sie die Schlüssel nach der Zeit."
+    assert translate.fault(said) == translate.fault(said.sentence()) == f"C:/a: b; c.json: {german}"
+    assert translate.fault("a.npz: is 3 > 2; who knows.") == "a.npz: is 3 > 2; who knows."
+    words = say("depth_steadied", percent=2.5)
+    assert "2,5 %" in translate.told(words) and translate.decimal(0.25, ".1%") == "25,0%"
+    saved = translate.tr("{n} min of optimising, ready in about {m:.1f} min").format(n=1, m=1.25)
+    assert saved.endswith("1,2 min")
+
+
+@pytest.mark.parametrize("size", [(1366, 690), (1920, 960)], ids=["1366x768", "1920x1040"])  # less the window's head
+def test_nothing_is_cut_in_german(german, request, qtbot, size):
+    workspace = request.getfixturevalue("workspace")
+    choose_all(workspace)
+    place_points(workspace)
+    workspace.resize(*size)
+    panel = workspace.buttons
+
+    def cut():
+        """Texts that are cut, or stand without their key."""
+        buttons = panel.findChildren(KeyButton)
+        edges = [b.mapTo(panel.viewport(), b.rect().topRight()).x() for b in buttons]
+        wide = [b.fontMetrics().horizontalAdvance(b.text()) for b in buttons]
+        return [b.text() for b, right, text in zip(buttons, edges, wide, strict=True)
+                if right >= panel.viewport().width() or text >= b.width() or not b.shows_key()]  # fmt: skip
+
+    for place in range(1, len(STEPS)):
+        workspace.show_step(place)
+        bar = workspace.docks["information"].widget().horizontalScrollBar()
+        qtbot.waitUntil(lambda bar=bar: bar.maximum() == 0 and not cut(), timeout=20_000)
+    told = {b.objectName(): b.toolTip() for b in panel.findChildren(KeyButton)}
+    assert told["annotate.review.reject"].endswith("(Strg+⇧+X)")
+    assert told["annotate.move.loop"].endswith("(⇧+Leertaste)")
