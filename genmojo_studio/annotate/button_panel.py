@@ -75,11 +75,11 @@ class ButtonPanel(QScrollArea):
         """Keys, ticks and what is possible."""
         for name, button in self._buttons.items():
             action = self._actions[name]
-            key = short_key(next(iter(self._actions.keys(name)), ""))
+            key = next(iter(self._actions.keys(name)), "")
             short = tr(SHORT.get(name.removeprefix("annotate."), action.text))
             button.setText(short)
-            button.setKey(key)
-            button.setToolTip(f"{tr(action.text)}. {tr(action.help)}" + (f"  ({key})" if key else ""))
+            button.setKey(short_key(key))
+            button.setToolTip(f"{tr(action.text)}. {tr(action.help)}" + (f"  ({_native(key)})" if key else ""))
             button.setEnabled(self._actions.is_enabled(name))
             button.setChecked(self._actions.is_checked(name))
         inside = self.widget()
@@ -145,7 +145,8 @@ class KeyButton(QToolButton):
         painter.end()
 
 
-_SIGNS = {"Shift": "⇧", "Return": "⏎", "Enter": "⏎", "Left": "←", "Right": "→", "Up": "↑", "Down": "↓"}
+_SIGNS = {"Shift": "⇧", "Return": "⏎", "Enter": "⏎", "Left": "←", "Right": "→", "Up": "↑", "Down": "↓",
+          "PgUp": "⇞", "PgDown": "⇟"}  # fmt: skip
 
 
 def short_key(keys: str) -> str:

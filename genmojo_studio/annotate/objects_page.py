@@ -209,7 +209,7 @@ class ObjectsPage(QWidget):
             self.reason.setCurrentText(tr(fitting))
 
     def _arrange(self) -> None:
-        self.table.setHorizontalHeaderLabels([tr("object"), "✓", tr("size"), tr("motion"), tr("seen/cut")])
+        self.table.setHorizontalHeaderLabels([tr("object"), "✓", tr("size"), tr("speed"), tr("seen/cut")])
         tips = ("", tr("✓ chosen, ? undecided (! something speaks against it), ✗ left out"),
                 tr("Median share of the frame"), tr("Pixels per frame at 1080 lines, against the background"),
                 tr("Share of the frames with masks in which it is seen; of those, in which it is partly hidden"),
@@ -239,7 +239,10 @@ class ObjectsPage(QWidget):
         column.addLayout(self._decisions())
         column.addWidget(self.about)
         column.addLayout(self._makers())
-        column.addWidget(self.purpose)
+        cutting = QHBoxLayout()
+        cutting.addWidget(self.purpose, 1)
+        cutting.addWidget(self.cut)
+        column.addLayout(cutting)
         column.addWidget(self.progress)
         column.addWidget(self.note)
         column.addLayout(self._most())
@@ -300,7 +303,6 @@ class ObjectsPage(QWidget):
                                    "mask agrees with it."))  # fmt: skip
         self.cut.setEnabled(False)
         self.cut.clicked.connect(self.cut_wanted)
-        row.addWidget(self.cut)
         row.addStretch()
         return row
 

@@ -504,12 +504,12 @@
       <translation>Größe</translation>
     </message>
     <message>
-      <source>motion</source>
-      <translation>Bewegung</translation>
+      <source>speed</source>
+      <translation>Tempo</translation>
     </message>
     <message>
       <source>seen/cut</source>
-      <translation>zu sehen/verdeckt</translation>
+      <translation>sichtbar</translation>
     </message>
     <message>
       <source>At most</source>
@@ -521,7 +521,7 @@
     </message>
     <message>
       <source> points each</source>
-      <translation> Punkte je Objekt</translation>
+      <translation> Punkte</translation>
     </message>
     <message>
       <source>Choose</source>
@@ -569,15 +569,15 @@
     </message>
     <message>
       <source>Makes a new object</source>
-      <translation>Macht ein neues Objekt</translation>
+      <translation>Neues Objekt</translation>
     </message>
     <message>
       <source>Puts the selected object's mask right</source>
-      <translation>Berichtigt die Maske des gewählten Objekts</translation>
+      <translation>Maske verbessern</translation>
     </message>
     <message>
       <source>Draws the selected object's mask anew</source>
-      <translation>Zeichnet die Maske des gewählten Objekts neu</translation>
+      <translation>Maske neu zeichnen</translation>
     </message>
     <message>
       <source>An object needs a name.</source>
@@ -4496,6 +4496,10 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>first scene</source>
       <translation>erste Szene</translation>
+    </message>
+    <message>
+      <source>motion</source>
+      <translation>Bewegung</translation>
     </message>
     <message>
       <source>lift</source>

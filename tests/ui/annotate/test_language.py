@@ -216,10 +216,10 @@ def test_nothing_is_cut_in_german(german, request, qtbot, size):
         return [b.text() for b, right, text in zip(buttons, edges, wide, strict=True)
                 if right >= panel.viewport().width() or text >= b.width() or not b.shows_key()]  # fmt: skip
 
-    for place in range(1, len(STEPS)):
+    for place in range(len(STEPS)):
         workspace.show_step(place)
         bar = workspace.docks["information"].widget().horizontalScrollBar()
         qtbot.waitUntil(lambda bar=bar: bar.maximum() == 0 and not cut(), timeout=20_000)
     told = {b.objectName(): b.toolTip() for b in panel.findChildren(KeyButton)}
-    assert told["annotate.review.reject"].endswith("(Strg+⇧+X)")
-    assert told["annotate.move.loop"].endswith("(⇧+Leertaste)")
+    assert told["annotate.review.reject"].endswith("(Strg+Umschalt+X)")
+    assert told["annotate.move.loop"].endswith("(Umschalt+Leertaste)")
