@@ -16,6 +16,7 @@ METHOD = "dense inverse search, forward-backward checked"
 _SMALLEST_SIDE = 32  # the search needs a few patches per axis; smaller images are padded up to this
 _ABSOLUTE_TOLERANCE = 0.5  # pixels; METHOD.md section 1
 _RELATIVE_TOLERANCE = 0.01
+_KEPT = 64  # flows that are kept where they are found on demand
 
 
 @dataclass(frozen=True)
@@ -47,6 +48,29 @@ class SequenceFlow:
     backward: np.ndarray
     forward_valid: np.ndarray
     backward_valid: np.ndarray
+
+    def between(self, a: int, b: int) -> np.ndarray:  # (H, W, 2)
+        """Flow from frame a to its neighbour b."""
+        return np.asarray((self.forward if b > a else self.backward)[a])
+
+
+class FlowOnDemand:
+    """Flow between neighbours of (T, H, W, 3) uint8, found when it is asked for first: for work on few of the frames.
+
+    The newest are kept, so memory does not grow with the clip; nothing is said of their validity.
+    """
+
+    def __init__(self, frames: np.ndarray) -> None:
+        self._frames = frames
+        self._kept: dict[tuple[int, int], np.ndarray] = {}
+
+    def between(self, a: int, b: int) -> np.ndarray:  # (H, W, 2)
+        """Flow from frame a to its neighbour b."""
+        if (a, b) not in self._kept:
+            while len(self._kept) >= _KEPT:
+                del self._kept[next(iter(self._kept))]
+            self._kept[a, b] = _search(_grey(self._frames[a]), _grey(self._frames[b]))
+        return self._kept[a, b]
 
 
 def forward_backward(frame_a: np.ndarray, frame_b: np.ndarray) -> FlowPair:  # (H, W, 3) or (H, W) uint8 each

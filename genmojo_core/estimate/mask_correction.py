@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 
 from genmojo_core.estimate.cutout import cut_in_box, cut_part
-from genmojo_core.estimate.flow import sequence_flow
+from genmojo_core.estimate.flow import FlowOnDemand
 from genmojo_core.estimate.masks import Drawing, Helpers, Prompt, carried, drawings
 
 _SPECK = 12  # pixels: a smaller change is too small to be followed
@@ -37,7 +37,7 @@ def correct_masks(
     Raises GenmojoError("argument") for a prompt outside the clip or the frame, or without area.
     """
     marks = {frame: drawing for (frame, _), drawing in drawings(frames, prompts, source_size).items()}
-    helpers = helpers or Helpers(sequence_flow(frames))
+    helpers = helpers or Helpers(FlowOnDemand(frames))
     result = mask.copy()
     for done, (frame, drawing) in enumerate(sorted(marks.items()), 1):
         now = corrected(frames[frame], mask[frame], drawing)

@@ -15,7 +15,7 @@ import numpy as np
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.estimate.cutout import Look, cut, cut_in_box, learn_look, resembles
-from genmojo_core.estimate.flow import SequenceFlow, sequence_flow, warp
+from genmojo_core.estimate.flow import FlowOnDemand, SequenceFlow, warp
 from genmojo_core.estimate.models import MaskModel
 from genmojo_core.estimate.order import object_motion
 
@@ -65,7 +65,7 @@ class Drawing:
 class Helpers:
     """What following an object may use: flow of the frames, a mask model or None, a hearer of progress 0..1."""
 
-    flows: SequenceFlow
+    flows: SequenceFlow | FlowOnDemand
     model: MaskModel | None = None
     progress: Callable[[float], None] | None = None
 
@@ -80,7 +80,7 @@ def masks_from_prompts(
 
     Raises GenmojoError("argument") for a prompt outside the clip or the frame, or without area.
     """
-    helpers = helpers or Helpers(sequence_flow(frames))
+    helpers = helpers or Helpers(FlowOnDemand(frames))
     seeds = seed_masks(frames, prompts, source_size, helpers.model)
     labels = sorted({label for _, label in seeds})
     scores = np.zeros((len(labels), *frames.shape[:3]), np.float16)
@@ -165,18 +165,14 @@ def carried(
     current, usual, last = mask, float(mask.sum()), mask
     f = start + step
     while 0 <= f < len(frames):
-        prior = _prior(frames[f - step], frames[f], current, _between(helpers.flows, f, step))
+        flows = helpers.flows.between(f, f - step), helpers.flows.between(f - step, f)
+        prior = _prior(frames[f - step], frames[f], current, flows)
         current = _carry_on(frames[f], current, last, prior, look, usual)
         current = _refined(frames[f], current, helpers.model)
         if current.any():
             last, usual = current, 0.95 * usual + 0.05 * float(current.sum())
         yield f, current
         f += step
-
-
-def _between(flows: SequenceFlow, f: int, step: int) -> tuple[np.ndarray, np.ndarray]:
-    """Flow from frame f to the one before it on the way (f - step), and from that one to f."""
-    return (flows.backward[f], flows.forward[f - 1]) if step > 0 else (flows.forward[f], flows.backward[f + 1])
 
 
 def _refined(frame: np.ndarray, mask: np.ndarray, model: MaskModel | None) -> np.ndarray:  # (H, W) bool
@@ -213,7 +209,8 @@ def _prior(before: np.ndarray, now: np.ndarray, mask: np.ndarray, flows: tuple[n
     """Where a mask (H, W) bool of the frame before is expected now: (H, W) float32 0..1.
 
     Flow and the object's affine motion speak alike; when its picture fits far better at another place nearby, the
-    object moved faster than flow can follow and that place counts alone. `flows` are `_between` the two frames.
+    object moved faster than flow can follow and that place counts alone. `flows` go from now to before, and
+    from before to now.
     """
     if not mask.any():
         return mask.astype(np.float32)

@@ -16,7 +16,7 @@ import numpy as np
 from genmojo_core.clip import mask_file, resize
 from genmojo_core.clip.clip import Channel, Clip
 from genmojo_core.errors import GenmojoError
-from genmojo_core.estimate.flow import sequence_flow
+from genmojo_core.estimate.flow import FlowOnDemand
 from genmojo_core.estimate.mask_correction import correct_masks
 from genmojo_core.estimate.masks import Box, Helpers, Prompt, Scribble, follow, masks_from_prompts
 from genmojo_core.store.atomic import write_bytes
@@ -46,7 +46,7 @@ def cut_out(clip: Clip, prompts: list[Prompt], progress: Progress | None = None)
             raise GenmojoError("argument", f"frame {frame} shows only what is not part of the object", clip.name,
                                "draw on the object too, or a box round it")  # fmt: skip
     alike = [replace(prompt, label=1) for prompt in prompts]
-    helpers = Helpers(sequence_flow(clip.frames), progress=progress)
+    helpers = Helpers(FlowOnDemand(clip.frames), progress=progress)
     mask = masks_from_prompts(clip.frames, alike, clip.source_size, helpers) > 0
     return Drawn(mask, tuple(sorted({prompt.frame for prompt in prompts})))
 
@@ -71,7 +71,7 @@ def followed(clip: Clip, old: Drawn, known: np.ndarray) -> Drawn:
         raise GenmojoError("empty", "every frame has masks already", clip.name, "correct the mask instead")
     if not seeds:
         raise GenmojoError("empty", "the object has no mask to follow", clip.name, "draw a box where it is seen")
-    found = follow(clip.frames, seeds, Helpers(sequence_flow(clip.frames))) >= 0.5
+    found = follow(clip.frames, seeds, Helpers(FlowOnDemand(clip.frames))) >= 0.5
     return Drawn(np.where(known[:, None, None], mask, found), old.frames)
 
 

@@ -298,6 +298,9 @@ class ObjectsPage(QWidget):
                               (Purpose.CORRECT, tr("Puts the selected object's mask right")),
                               (Purpose.ANEW, tr("Draws the selected object's mask anew"))):  # fmt: skip
             self.purpose.addItem(text, purpose.value)
+        for box in (self.purpose, self.reason):  # the panel is narrow; the list that opens is as wide as its texts
+            box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+            box.setMinimumContentsLength(8)
         self.purpose.setAccessibleName(tr("What is cut out"))
         self.purpose.setToolTip(tr("A correction changes what you point at, and goes on from frame to frame until the "
                                    "mask agrees with it."))  # fmt: skip

@@ -6,7 +6,7 @@ from estimate_pictures import squares, texture, window
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from genmojo_core.estimate.flow import closes, forward_backward, sequence_flow, warp
+from genmojo_core.estimate.flow import FlowOnDemand, closes, forward_backward, sequence_flow, warp
 
 
 @pytest.mark.parametrize("shift", [(0, 0), (3, -2), (7.5, 1.25)])
@@ -66,3 +66,14 @@ def test_any_size_and_flat_pictures_are_finite(height, width, kind):
     b = a if kind < 2 else rng.integers(0, 256, (height, width, 3), dtype=np.uint8)
     pair = forward_backward(a, b)
     assert pair.forward.shape == (height, width, 2) and np.isfinite(pair.forward).all()
+
+
+def test_flow_on_demand_is_the_flow_of_the_sequence(monkeypatch):
+    rng = np.random.default_rng(2)
+    picture = rng.integers(0, 255, (48, 90, 3), np.uint8)
+    frames = np.stack([picture[:, 3 * t : 3 * t + 64] for t in range(6)])
+    whole, lazy = sequence_flow(frames), FlowOnDemand(frames)
+    monkeypatch.setattr("genmojo_core.estimate.flow._KEPT", 2)  # so that some are found twice
+    for a, b in ((0, 1), (1, 0), (4, 5), (5, 4), (0, 1)):
+        np.testing.assert_array_equal(lazy.between(a, b), whole.between(a, b))
+        np.testing.assert_array_equal(whole.between(a, b), (whole.forward if b > a else whole.backward)[a])

@@ -17,6 +17,7 @@ from genmojo_core.store.project import Project
 from genmojo_studio.annotate.colours import object_colour
 from genmojo_studio.annotate.masks import Purpose
 from genmojo_studio.annotate.session import open_session
+from genmojo_studio.annotate.steps import STEPS
 
 WAIT = 120_000
 
@@ -262,3 +263,39 @@ def test_masks_of_some_frames_are_followed_into_the_others(drawing, qtbot, clip_
         mask = session.hand_masks[number]
         assert mask[2:6].any(axis=(1, 2)).all(), "it goes on, until it is hidden"
         assert abs(int(mask[1].sum()) - int(given.sum())) <= 0.1 * given.sum(), "what was given stays"
+
+
+def test_names_reasons_and_limits_say_what_stands(drawing):
+    workspace, _ = drawing
+    session, page, said = workspace.session, workspace.objects, []
+    session.said.connect(said.append)
+    choose_all(workspace)
+    first = page.current()
+    session.select(session.objects()[0].id, 1)
+    first = page.current()
+    page.table.item(0, 0).setText("   ")
+    assert page.table.item(0, 0).text() == first.name and "needs a name" in said[-1]
+    page.table.item(0, 0).setText("n" * 70)
+    assert session.annotation.objects[first.id].name == "n" * 60 and "60" in said[-1]
+
+    chosen = len(session.objects())
+    page.limits["objects"].setValue(chosen - 1)
+    assert str(chosen - 1) in page.note.text()
+    missing = STEPS[0].missing(session.annotation, 5, 2)
+    assert f"{chosen}" in missing and f"{chosen - 1}" in missing, "more are chosen than wanted"
+
+    page.reason.setCurrentText("behind the fence all the time")
+    workspace.table.trigger("annotate.object.reject")
+    assert session.annotation.objects[first.id].reason == "behind the fence all the time"
+    session.select(first.id, 1)
+    assert "behind the fence" in page.about.text(), "the reason can be read, not only as a tool tip"
+    page.reason.setCurrentText("  ")
+    head = session.project.log.head
+    workspace.table.trigger("annotate.object.reject")
+    assert session.project.log.head == head and "why" in said[-1]
+    page.limits["objects"].setValue(chosen)
+    workspace.table.trigger("annotate.object.choose")
+    assert session.annotation.objects[first.id].status == "chosen"
+    assert [o.id for o in session.objects()][-1] == first.id
+    workspace.table.trigger("annotate.object.earlier")
+    assert [o.id for o in session.objects()][-2:][0] == first.id
