@@ -17,6 +17,7 @@ from genmojo_core.store.npz import read_tracks
 from genmojo_core.store.project import Project
 from genmojo_core.tracks.annotation import KEY
 from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE
+from genmojo_studio.annotate.take_tracks import ExportDialog
 
 
 def drag(workspace, start, end):
@@ -74,6 +75,7 @@ def test_the_whole_path_with_mouse_and_keys(workspace, qtbot, tmp_path, monkeypa
     target = tmp_path / "out.npz"
     monkeypatch.setattr("PySide6.QtWidgets.QFileDialog.getSaveFileName", lambda *a, **k: (str(target), ""))
     workspace.table.trigger("annotate.file.export")
+    workspace.findChild(ExportDialog).choose.click()
     qtbot.waitUntil(target.exists, timeout=60_000)
     stored = read_tracks(target, session.annotation.size)
     assert stored.xy.shape[:2] == (len(places), session.annotation.frames)
