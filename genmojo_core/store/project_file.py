@@ -8,6 +8,7 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -48,6 +49,16 @@ class ClipInfo:
     def of(clip: Clip) -> ClipInfo:
         """Of a clip that was read whole."""
         return ClipInfo(clip.name, clip.path, clip.source_size, clip.frame_index, clip.seconds)
+
+
+def clip_doubt(one: ClipInfo, other: ClipInfo) -> Literal["", "pictures", "times", "name"]:
+    """What speaks against two projects being of the same clip, by their frames' digests, time stamps and names."""
+    told = [(a, b) for a, b in zip(one.sha256, other.sha256, strict=False) if a and b]
+    if told:
+        return "" if all(a == b for a, b in told) else "pictures"
+    if one.frames != other.frames or not np.allclose(one.seconds, other.seconds, atol=1e-3):
+        return "times"
+    return "" if one.name == other.name else "name"
 
 
 @dataclass(frozen=True)

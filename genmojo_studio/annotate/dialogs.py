@@ -90,9 +90,10 @@ class Dialogs:
         start, _ = QFileDialog.getOpenFileName(self._w, tr("What both began from (cancel if there is none)"), "", kinds)
 
         def compare() -> None:
-            theirs = project_file.load(Path(other)).annotation
+            theirs = project_file.load(Path(other))
             base = project_file.load(Path(start)).annotation if start else None
-            MergeDialog(self._s, theirs, base, self._w).open()
+            doubt = project_file.clip_doubt(self._s.project.info, theirs.info)
+            MergeDialog(self._s, theirs.annotation, base, self._w, doubt).open()
 
         self._try(compare)
 

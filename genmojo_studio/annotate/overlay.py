@@ -28,6 +28,7 @@ MANY = 64
 FLYING = 800  # dots that are drawn while frames fly by
 RADIUS = 6.0
 _DARK = QColor(12, 14, 18)
+_THEIRS = QColor(255, 255, 255)
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,16 @@ class Mark:
     suspicion: float = 0.0
 
 
+@dataclass(frozen=True)
+class Ghost:
+    """Another person's track: its label, raster xy (k, 2), state (k,) and index in them of the frame shown."""
+
+    label: str
+    xy: np.ndarray
+    state: np.ndarray
+    now: int
+
+
 @dataclass
 class Picture:
     """What the overlay shows of one frame.
@@ -54,7 +65,7 @@ class Picture:
         marks: points with glyphs, the selected one among them. dots: (n, 2) raster positions of all other points.
         trails: per mark, raster xy (k, 2), state (k,) and index in them of the frame shown.
         contours: per object id, its place in the list and its outlines as closed (m, 2) raster polygons.
-        mask_mode: 0 off, 1 outline, 2 filled. selected: track id or None.
+        mask_mode: 0 off, 1 outline, 2 filled. selected: track id or None. ghost: a second annotator's track, or None.
         sketch: boxes and strokes of this frame that wait to be cut out.
     """
 
@@ -66,6 +77,7 @@ class Picture:
     selected: int | None = None
     selected_object: int | None = None
     sketch: list[Prompt] = field(default_factory=list)
+    ghost: Ghost | None = None
 
 
 def contours_of(labels: np.ndarray, places: dict[int, int]) -> dict[int, tuple[int, list[np.ndarray]]]:
@@ -107,6 +119,8 @@ def draw(painter: QPainter, picture: Picture, mapping: Mapping, view: QRectF, *,
         elif mark.state == VISIBLE:
             _arrow(painter, mark, centre, view)
     _sketch(painter, picture.sketch, mapping)
+    if picture.ghost is not None:
+        _ghost(painter, picture.ghost, mapping)
 
 
 def sketch_pen(*, on: bool) -> QPen:
@@ -255,6 +269,30 @@ def _trails(painter: QPainter, picture: Picture, mapping: Mapping, *, fine: bool
             for begin, stop, style in _runs(styles, first, end):
                 painter.setPen(QPen(colour, width if fine else 1, style))
                 painter.drawPolyline(pg.functions.arrayToQPolygonF(x[begin : stop + 1], y[begin : stop + 1]))
+
+
+def _ghost(painter: QPainter, ghost: Ghost, mapping: Mapping) -> None:
+    """A second annotator's track: a white dotted trail, and a ring with a label, dashed where the point is hidden."""
+    x, y = _mapped(ghost.xy, mapping)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    for colour, width in ((_DARK, 3.6), (_THEIRS, 1.8)):
+        painter.setPen(QPen(colour, width, Qt.PenStyle.DotLine))
+        for begin, stop, _ in _runs(_styles(ghost.state), 0, len(x) - 1):
+            painter.drawPolyline(pg.functions.arrayToQPolygonF(x[begin : stop + 1], y[begin : stop + 1]))
+    state = int(ghost.state[ghost.now])
+    if state == NONE:
+        return
+    centre = QPointF(x[ghost.now], y[ghost.now])
+    style = Qt.PenStyle.SolidLine if state == VISIBLE else Qt.PenStyle.DashLine
+    for colour, width in ((_DARK, 4.0), (_THEIRS, 2.0)):
+        painter.setPen(QPen(colour, width, style))
+        painter.drawEllipse(centre, RADIUS * 1.5, RADIUS * 1.5)
+    at = centre + QPointF(RADIUS * 1.8, RADIUS * 2.4)
+    painter.setPen(QPen(_DARK, 1))
+    for shift in ((-1, 0), (1, 0), (0, -1), (0, 1)):
+        painter.drawText(at + QPointF(*shift), ghost.label)
+    painter.setPen(_THEIRS)
+    painter.drawText(at, ghost.label)
 
 
 def _styles(state: np.ndarray) -> list[Qt.PenStyle]:

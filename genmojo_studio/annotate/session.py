@@ -40,6 +40,15 @@ class Painting:
         return min(self.first, self.last), max(self.first, self.last)
 
 
+@dataclass(frozen=True)
+class Other:
+    """A second annotator's track shown beside mine while the two are compared, and what to call it."""
+
+    annotation: Annotation
+    track: int
+    label: str
+
+
 class Session(QObject):
     """Clip, project and selection; every change is told by a signal, on the UI thread."""
 
@@ -60,6 +69,7 @@ class Session(QObject):
         self.active = (0, 1)  # object id, number 1..; the point that a click places
         self.run: tuple[int | None, int | None] = (None, None)  # marked by [ and ]
         self.painting: Painting | None = None
+        self.other: Other | None = None
         self.suspicion: dict[int, np.ndarray] = {}  # track -> (T,) 0..1
         self.snap = False
         self.first_frames: dict[int, int] = {}  # object id -> frame in which it is first seen, as far as that is known

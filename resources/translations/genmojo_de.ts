@@ -348,16 +348,56 @@
       <translation>Objekt {n}</translation>
     </message>
     <message>
+      <source>The pictures of the two projects differ: they are of different clips.</source>
+      <translation>Die Bilder der beiden Projekte unterscheiden sich: Sie gehören zu verschiedenen Clips.</translation>
+    </message>
+    <message>
+      <source>The time stamps of the two projects differ: they may be of different clips.</source>
+      <translation>Die Zeitstempel der beiden Projekte unterscheiden sich: Vielleicht gehören sie zu verschiedenen Clips.</translation>
+    </message>
+    <message>
+      <source>The two projects are of clips of different names.</source>
+      <translation>Die Clips der beiden Projekte heißen verschieden.</translation>
+    </message>
+    <message>
+      <source>whole point</source>
+      <translation>ganzer Punkt</translation>
+    </message>
+    <message>
+      <source>name</source>
+      <translation>Name</translation>
+    </message>
+    <message>
+      <source>note</source>
+      <translation>Notiz</translation>
+    </message>
+    <message>
+      <source>review</source>
+      <translation>Prüfung</translation>
+    </message>
+    <message>
+      <source>object</source>
+      <translation>Objekt</translation>
+    </message>
+    <message>
       <source>Compare with a second annotator</source>
       <translation>Mit einer zweiten Person vergleichen</translation>
     </message>
     <message>
-      <source>What only they changed is taken over; of conflicts, what you choose (keys 1, 2, 3 for the row). One step; it can be undone.</source>
-      <translation>Was nur die anderen geändert haben, wird übernommen; bei Widersprüchen, was Sie wählen (Tasten 1, 2, 3 für die Zeile). Ein Schritt; er lässt sich zurücknehmen.</translation>
+      <source>What only they changed is taken over; of conflicts, what you choose (keys 1, 2, 3 for the row). The frame shows their point beside yours; , and . step through it. One step; it can be undone.</source>
+      <translation>Was nur die anderen geändert haben, wird übernommen; bei Konflikten, was Sie wählen (Tasten 1, 2, 3 für die Zeile). Das Bild zeigt ihren Punkt neben Ihrem; , und . gehen durch die Bilder. Ein Schritt, der sich zurücknehmen lässt.</translation>
     </message>
     <message>
       <source>Merge</source>
       <translation>Zusammenführen</translation>
+    </message>
+    <message>
+      <source>It is the same clip all the same</source>
+      <translation>Es ist trotzdem derselbe Clip</translation>
+    </message>
+    <message>
+      <source>No point in common.</source>
+      <translation>Kein gemeinsamer Punkt.</translation>
     </message>
     <message>
       <source>Differences between the two annotators</source>
@@ -376,16 +416,12 @@
       <translation>beide</translation>
     </message>
     <message>
-      <source>{n} tracks in common. AJ {aj:.1f}, δ {delta:.1f}, OA {oa:.1f} %. Distance where both see the point: median {median:.2f} px, 90 % below {p90:.2f} px (1080 lines). Same state in {states:.1%}.</source>
-      <translation>{n} gemeinsame Spuren. AJ {aj:.1f}, δ {delta:.1f}, OA {oa:.1f} %. Abstand, wo beide den Punkt sehen: Median {median:.2f} px, 90 % unter {p90:.2f} px (1080 Zeilen). Gleicher Zustand in {states:.1%}.</translation>
+      <source>{n} tracks in common. AJ {aj}, δ {delta}, OA {oa} %. Distance where both see the point: median {median} px, 90 % below {p90} px (1080 lines). Same state in {states}.</source>
+      <translation>{n} gemeinsame Spuren. AJ {aj}, δ {delta}, OA {oa} %. Abstand, wo beide den Punkt sehen: Median {median} px, 90 % unter {p90} px (1080 Zeilen). Gleicher Zustand in {states}.</translation>
     </message>
     <message>
       <source>point</source>
       <translation>Punkt</translation>
-    </message>
-    <message>
-      <source>frames</source>
-      <translation>Bilder</translation>
     </message>
     <message>
       <source>changed by</source>
@@ -404,12 +440,40 @@
       <translation>Was übernommen wird</translation>
     </message>
     <message>
-      <source>mine</source>
-      <translation>meines</translation>
-    </message>
-    <message>
       <source>theirs</source>
       <translation>ihres</translation>
+    </message>
+    <message>
+      <source>frame {n}</source>
+      <translation>Bild {n}</translation>
+    </message>
+    <message>
+      <source>{n} frames</source>
+      <translation>{n} Bilder</translation>
+    </message>
+    <message>
+      <source>locked</source>
+      <translation>gesperrt</translation>
+    </message>
+    <message>
+      <source>frames {first} to {last}</source>
+      <translation>Bilder {first} bis {last}</translation>
+    </message>
+    <message>
+      <source>chosen</source>
+      <translation>gewählt</translation>
+    </message>
+    <message>
+      <source>rejected</source>
+      <translation>verworfen</translation>
+    </message>
+    <message>
+      <source>This track is locked and stays as it is; unlock it to merge it.</source>
+      <translation>Diese Spur ist gesperrt und bleibt, wie sie ist; zum Zusammenführen entsperren.</translation>
+    </message>
+    <message>
+      <source>mine</source>
+      <translation>meines</translation>
     </message>
     <message>
       <source>the middle</source>
@@ -496,10 +560,6 @@
       <translation>Sagen Sie, warum es weggelassen wird.</translation>
     </message>
     <message>
-      <source>object</source>
-      <translation>Objekt</translation>
-    </message>
-    <message>
       <source>size</source>
       <translation>Größe</translation>
     </message>
@@ -509,7 +569,7 @@
     </message>
     <message>
       <source>seen/cut</source>
-      <translation>sichtbar</translation>
+      <translation>zu sehen/verdeckt</translation>
     </message>
     <message>
       <source>At most</source>
@@ -521,7 +581,7 @@
     </message>
     <message>
       <source> points each</source>
-      <translation> Punkte</translation>
+      <translation> Punkte je Objekt</translation>
     </message>
     <message>
       <source>Choose</source>
@@ -569,15 +629,15 @@
     </message>
     <message>
       <source>Makes a new object</source>
-      <translation>Neues Objekt</translation>
+      <translation>Macht ein neues Objekt</translation>
     </message>
     <message>
       <source>Puts the selected object's mask right</source>
-      <translation>Maske verbessern</translation>
+      <translation>Berichtigt die Maske des gewählten Objekts</translation>
     </message>
     <message>
       <source>Draws the selected object's mask anew</source>
-      <translation>Maske neu zeichnen</translation>
+      <translation>Zeichnet die Maske des gewählten Objekts neu</translation>
     </message>
     <message>
       <source>An object needs a name.</source>
@@ -890,10 +950,6 @@
     <message>
       <source>why</source>
       <translation>warum</translation>
-    </message>
-    <message>
-      <source>note</source>
-      <translation>Notiz</translation>
     </message>
     <message>
       <source>accepted</source>
@@ -1608,16 +1664,8 @@
       <translation>freigegeben</translation>
     </message>
     <message>
-      <source>rejected</source>
-      <translation>verworfen</translation>
-    </message>
-    <message>
       <source>doubt</source>
       <translation>Zweifel</translation>
-    </message>
-    <message>
-      <source>review</source>
-      <translation>Prüfung</translation>
     </message>
     <message>
       <source>placed</source>
@@ -1630,10 +1678,6 @@
     <message>
       <source>frame {n}, late</source>
       <translation>Bild {n}, spät</translation>
-    </message>
-    <message>
-      <source>frame {n}</source>
-      <translation>Bild {n}</translation>
     </message>
     <message>
       <source>There are no masks to track in: make one in step 1.</source>
@@ -4398,6 +4442,10 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Ecken je Objekt</translation>
     </message>
     <message>
+      <source>frames</source>
+      <translation>Bilder</translation>
+    </message>
+    <message>
       <source>the camera is taken to stand still; its field of view is taken to be {degrees:.3g} degrees high</source>
       <translation>angenommen wird, dass die Kamera stillsteht und ihr Sichtfeld {degrees:.3g} Grad hoch ist</translation>
     </message>
@@ -4572,10 +4620,6 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>frame {first}</source>
       <translation>Bild {first}</translation>
-    </message>
-    <message>
-      <source>frames {first} to {last}</source>
-      <translation>Bilder {first} bis {last}</translation>
     </message>
     <message>
       <source>Place {point}</source>

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import annotations
@@ -14,9 +15,10 @@ from genmojo_core.store.edit_codec import decode_annotation, encode_annotation
 from genmojo_core.store.project import Project, info_of
 from genmojo_core.store.project_log import Row
 from genmojo_core.tracks import edit_tracks, keys, statistics
-from genmojo_core.tracks.agreement import agreement, merge, preview
+from genmojo_core.tracks.agreement import agreement
 from genmojo_core.tracks.annotation import Annotation, ObjectInfo
 from genmojo_core.tracks.edits import set_meta
+from genmojo_core.tracks.merge import MergeThing, locked, merge, preview
 from genmojo_core.tracks.model import OCCLUDED
 
 
@@ -69,6 +71,86 @@ def test_a_merge_keeps_what_either_side_did_alone_and_asks_about_the_rest() -> N
     assert mine.track(4).state[3:7].tolist() == [OCCLUDED] * 4
     edit.undo(mine)
     assert mine.digest() == before
+
+
+def test_figures_that_nothing_tells_are_no_number() -> None:
+    """The common tracks only have a key, or the clip is one frame."""
+    mine, theirs = annotations.started(12, 1, 1), annotations.started(12, 1, 1)
+    for side in (mine, theirs):
+        keys.set_key(side, 1, 11, (5.0, 5.0)).do(side)
+    assert np.isnan(agreement(mine, theirs)["aj"])
+    assert agreement(mine, theirs)["median_px"] == 0
+    mine, theirs = annotations.started(1, 1, 1), annotations.started(1, 1, 1)
+    for side in (mine, theirs):
+        keys.set_key(side, 1, 0, (5.0, 5.0)).do(side)
+    assert np.isnan(agreement(mine, theirs)["aj"])
+
+
+def test_points_names_notes_reviews_objects_and_doubts_are_listed_and_taken() -> None:
+    base = filled()
+    mine, theirs = copied(base), copied(base)
+    edit_tracks.put_objects(theirs, [ObjectInfo(9, "bird", 3, "chosen")]).do(theirs)
+    new = edit_tracks.add_track(theirs, 9, 2, "Bob", "beak")
+    new.do(theirs)
+    keys.set_key(theirs, int(new.track or 0), 4, (7.0, 8.0)).do(theirs)
+    edit_tracks.delete_track(theirs, 5).do(theirs)
+    edit_tracks.update_track(theirs, 1, name="nose", note="blurred").do(theirs)
+    keys.set_uncertain(theirs, 1, 2, 3, on=True).do(theirs)
+    edit_tracks.needs_fix(theirs, 2, "drift", (3, 6), "Bob", "look").do(theirs)
+    edit_tracks.update_track(mine, 3, name="mine").do(mine)
+    edit_tracks.update_track(theirs, 3, name="theirs").do(theirs)
+    found = preview(base, mine, theirs)
+    listed = {(one.what, one.object, one.number): (one.kind, one.mine, one.theirs)
+              for one in found if isinstance(one, MergeThing)}  # fmt: skip
+    assert listed == {
+        ("object", 9, 0): ("theirs", "", "chosen"), ("point", 9, 2): ("theirs", "", "1"),
+        ("point", 2, 2): ("theirs", "12", ""), ("name", 1, 1): ("theirs", "", "nose"),
+        ("note", 1, 1): ("theirs", "", "blurred"), ("review", 1, 2): ("theirs", "", "needs_fix"),
+        ("note", 1, 2): ("theirs", "", "look"), ("name", 1, 3): ("conflict", "mine", "theirs"),
+    }  # fmt: skip
+    assert [(r.track, r.first, r.last, r.kind) for r in found if not isinstance(r, MergeThing)] == [(1, 2, 3, "theirs")]
+    before = mine.digest()
+    edit = merge(mine, theirs, found, {})
+    edit.do(mine)
+    places = {(i.object, i.number): i for i in mine.tracks.values()}
+    assert (2, 2) not in places
+    assert (places[9, 2].name, places[9, 2].person) == ("beak", "Bob")
+    assert mine.track(places[9, 2].id).xy[4].tolist() == [7, 8]
+    assert mine.objects[9].status == "chosen"
+    assert (places[1, 1].name, places[1, 1].note, places[1, 3].name) == ("nose", "blurred", "mine")
+    assert (places[1, 2].review, places[1, 2].reason, places[1, 2].run) == ("needs_fix", "drift", (3, 6))
+    assert [one.kind for one in preview(base, mine, theirs)] == ["conflict"]
+    edit.undo(mine)
+    assert mine.digest() == before
+
+
+def test_a_deletion_against_work_is_a_conflict_and_locked_tracks_stay() -> None:
+    base = filled()
+    mine, theirs = copied(base), copied(base)
+    keys.set_key(mine, 5, 5, (1.0, 1.0)).do(mine)
+    edit_tracks.delete_track(theirs, 5).do(theirs)
+    keys.set_key(theirs, 6, 5, (2.0, 2.0)).do(theirs)
+    edit_tracks.update_track(mine, 6, locked=True).do(mine)
+    found = preview(base, mine, theirs)
+    kinds = {one.track: one.kind for one in found if not (isinstance(one, MergeThing) and one.what == "review")}
+    assert kinds == {5: "conflict", 6: "theirs"}
+    assert [locked(mine, one) for one in found if one.track == 6] == [True, True]
+    before = mine.digest()
+    merge(mine, theirs, found, dict.fromkeys(range(len(found)), "mine")).do(mine)
+    assert mine.digest() == before
+    merge(mine, theirs, found, dict.fromkeys(range(len(found)), "theirs")).do(mine)
+    assert 5 not in mine.tracks
+    assert mine.track(6).xy[5].tolist() != [2.0, 2.0]
+
+
+def test_what_speaks_against_the_same_clip_is_seen_in_pictures_times_and_names() -> None:
+    one = info_of(12, annotations.SIZE)
+    assert project_file.clip_doubt(one, one) == ""
+    assert project_file.clip_doubt(one, replace(one, name="other")) == "name"
+    assert project_file.clip_doubt(one, replace(one, seconds=one.seconds + 1.0)) == "times"
+    told = replace(one, sha256=("a",) * 12)
+    assert project_file.clip_doubt(told, replace(told, name="other")) == ""
+    assert project_file.clip_doubt(told, replace(told, sha256=("b",) * 12)) == "pictures"
 
 
 def test_annotations_of_other_clips_are_refused() -> None:
