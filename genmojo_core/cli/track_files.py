@@ -74,7 +74,10 @@ def read_sheet(path: str | Path, which: Which = "all") -> TrackSheet:
         loaded = project_file.load(file)
         names = frame_names(loaded.info.path)
         names = names if len(names) == loaded.annotation.frames else ()
-        return TrackSheet.of_annotation(loaded.annotation, names, loaded.info.seconds, which)
+        sheet = TrackSheet.of_annotation(loaded.annotation, names, loaded.info.seconds, which)
+        if loaded.annotation.tracks and not len(sheet.numbers):
+            raise GenmojoError("empty", "holds no track that the review lets through", str(path), "give --review all")
+        return sheet
     if head.startswith(b"\x89HDF"):
         return tracks_hdf5.read(file)
     if not head.startswith(b"PK"):

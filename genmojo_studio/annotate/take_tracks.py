@@ -209,6 +209,9 @@ def _choose_file(workspace: AnnotateWorkspace, dialog: ExportDialog) -> None:
     names = frame_names(info.path)
     names = names if len(names) == session.annotation.frames else ()
     sheet = TrackSheet.of_annotation(session.annotation, names, info.seconds, which)
+    if not len(sheet.numbers):
+        session.said.emit(tr("There is no such track to export."))
+        return
     left = len(session.annotation.active()) - len(sheet.numbers)
     parts = [tr("Exported {n} tracks: {name}").format(n=len(sheet.numbers), name=path)]
     if left:

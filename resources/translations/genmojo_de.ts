@@ -1504,6 +1504,10 @@
       <translation>Einen Pickle öffnen?</translation>
     </message>
     <message>
+      <source>There is no such track to export.</source>
+      <translation>Es gibt keine solche Spur zu exportieren.</translation>
+    </message>
+    <message>
       <source>All track files</source>
       <translation>Alle Dateien mit Spuren</translation>
     </message>

@@ -82,3 +82,5 @@ def test_projects_are_described_checked_and_exported(folder: Path, capsys: pytes
     assert said(capsys, "validate", str(file))["valid"]
     said(capsys, "export", str(file), "--to", "tracks", "-o", str(folder / "clip" / "tracks.npz"))
     assert said(capsys, "inspect", str(folder / "clip"))["channels"] == ["masks", "tracks"]
+    assert main(["export", str(file), "--to", "tracks", "--review", "approved", "-o", str(folder / "a.npz")]) == 2
+    assert "--review all" in capsys.readouterr().err
