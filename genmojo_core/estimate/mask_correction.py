@@ -73,7 +73,12 @@ def _in_box(frame: np.ndarray, mask: np.ndarray, drawing: Drawing) -> np.ndarray
     known = (mask & (box > 0)).astype(np.uint8)
     reach = max(1, round(_SURE * float(np.sqrt(known.sum()))))
     sure = cv2.erode(known, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1))) > 0
-    return cut_in_box(frame, drawing.box, drawing.inside | sure, drawing.outside)
+    found = cut_in_box(frame, drawing.box, drawing.inside | sure, drawing.outside)
+    touched = drawing.inside | (known > 0)
+    if not touched.any():
+        return found
+    _, parts = cv2.connectedComponents(found.astype(np.uint8))
+    return np.isin(parts, np.unique(parts[touched & found])) & found  # not what merely looks alike elsewhere in the box
 
 
 def _around(stroke: np.ndarray) -> np.ndarray:  # (H, W) bool

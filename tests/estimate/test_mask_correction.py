@@ -8,8 +8,8 @@ import pytest
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.estimate.flow import sequence_flow
-from genmojo_core.estimate.mask_correction import correct_masks
-from genmojo_core.estimate.masks import Box, Helpers, Scribble
+from genmojo_core.estimate.mask_correction import correct_masks, corrected
+from genmojo_core.estimate.masks import Box, Drawing, Helpers, Scribble
 
 T, H, W = 9, 90, 160
 SIZE = (2 * W, 2 * H)  # prompts are in pixels of a source of twice the size
@@ -89,6 +89,20 @@ def test_an_object_lost_on_the_way_is_found_by_a_box_and_what_was_right_stays(cl
     fixed = correct_masks(frames, lost, [box], SIZE, helpers=helpers)
     np.testing.assert_array_equal(fixed[:4], one[:4])
     assert min(overlap(fixed[t], one[t]) for t in range(4, T)) > 0.85
+
+
+def test_a_box_does_not_bring_in_what_merely_looks_alike():
+    rng = np.random.default_rng(5)
+    frame = np.zeros((H, W, 3), np.float32) + (60, 110, 60) + rng.normal(0, 8, (H, W, 1))
+    twins = np.zeros((2, H, W), bool)
+    twins[0, 30:60, 20:50] = twins[1, 30:60, 80:110] = True
+    frame[twins.any(axis=0)] = np.array((200, 60, 50)) + rng.normal(0, 8, (int(twins.sum()), 1))
+    half = twins[0].copy()
+    half[45:] = False
+    nothing = np.zeros((H, W), bool)
+    box = Drawing(np.array([15.0, 25.0, 115.0, 65.0]), nothing, nothing)
+    found = corrected(frame.clip(0, 255).astype(np.uint8), half, box)
+    assert overlap(found, twins[0]) > 0.9 and not (found & twins[1]).any()
 
 
 def test_a_prompt_outside_the_frame_is_refused(clip):
