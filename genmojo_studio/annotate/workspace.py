@@ -185,7 +185,8 @@ class AnnotateWorkspace(QMainWindow):
         bind(self)
         give_back(self.pages, self.canvas)
         self._theme_changed()
-        self.show_step(self._first_open_step())
+        self.step = self._first_open_step()  # nothing of the step before is on show any more that could be remembered
+        self.show_step(self.step)
         QTimer.singleShot(0, self.restore_layout)  # again, once the new panels have been laid out
         self.screen_link.show_frame(session.frame)
         self.bar.saved.setText(tr("read only") if session.project.read_only else tr("saved"))
@@ -195,9 +196,11 @@ class AnnotateWorkspace(QMainWindow):
         """Store and let go of the clip that is open; one that is half open is opened first."""
         for _ in self._opening:
             continue
-        session, self.session = self.session, None
+        session = self.session
         if session is None:
             return
+        self.save_layout()
+        self.session = None
         self.play.player.stop()
         self.work.close()
         for dock in self.docks.values():
@@ -260,8 +263,9 @@ class AnnotateWorkspace(QMainWindow):
         self.canvas.setFocus()
 
     def save_layout(self) -> None:
-        """Remember where the panels are in this step."""
-        self.settings.put_layout(self._layout_name(), self.panels.layout())
+        """Remember where the panels are in this step; empty ones are of no size of theirs."""
+        if self.session is not None:
+            self.settings.put_layout(self._layout_name(), self.panels.layout())
 
     def restore_layout(self) -> None:
         """Put the panels where they were in this step, or where they belong."""

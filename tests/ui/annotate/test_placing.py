@@ -282,3 +282,11 @@ def test_layouts_outlive_a_window_that_is_low_for_a_while_and_the_clip(workspace
         workspace.open_with(open_session(workspace.state, clip_folder, "Ada", tmp_path / project))
         qtbot.waitUntil(lambda: bool(workspace.objects.figures), timeout=60_000)
         qtbot.waitUntil(lambda: {name: workspace.docks[name].width() for name in widths} == widths, timeout=60_000)
+    workspace.show_step(steps.place_of("points"))  # another step than the one that a new clip begins with
+    workspace.resizeDocks([workspace.docks["information"]], [330], Qt.Orientation.Horizontal)
+    qtbot.waitUntil(lambda: workspace.docks["information"].width() == 330, timeout=60_000)
+    workspace.close_clip()
+    workspace.open_with(open_session(workspace.state, clip_folder, "Ada", tmp_path / "d.genmojo"))
+    qtbot.waitUntil(lambda: bool(workspace.objects.figures), timeout=60_000)
+    workspace.show_step(steps.place_of("points"))
+    qtbot.waitUntil(lambda: workspace.docks["information"].width() == 330, timeout=60_000)
