@@ -42,6 +42,7 @@ def check_place(workspace, qtbot):
 def test_the_tour_goes_on_when_something_was_done_and_fills_in_what_was_not(workspace, qtbot, tour):
     session = workspace.session
     own = Path(session.project.path)
+    workspace.objects.limits["points"].setValue(2)  # fewer tracks, sooner judged
     assert session.state is not workspace.state, "the rest of the app keeps its clip"
     tour.next.click()
     workspace.objects.table.selectRow(0)
@@ -58,7 +59,7 @@ def test_the_tour_goes_on_when_something_was_done_and_fills_in_what_was_not(work
         assert tour.at == at
         check_place(workspace, qtbot)
         if at == 6:
-            assert session.annotation.tracks[1] == placed and len(session.annotation.tracks) == 5
+            assert session.annotation.tracks[1] == placed and len(session.annotation.tracks) == 2
             qtbot.waitUntil(lambda: len(workspace.hands.going.spots) > 0, timeout=120_000)
         if at == 8:
             QTest.keyClick(workspace.canvas, Qt.Key.Key_N)
