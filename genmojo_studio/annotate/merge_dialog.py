@@ -27,7 +27,7 @@ from genmojo_core.tracks.edits import Edit
 from genmojo_core.tracks.merge import Choice, Difference, MergeRun, MergeThing, locked, merge, preview
 from genmojo_studio.annotate.session import Other, Session
 from genmojo_studio.annotate.track_tree import review_name
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import decimal, tr
 
 _CHOICES: tuple[Choice, ...] = ("mine", "theirs", "middle")
 _STEPS = {Qt.Key.Key_Comma: -1, Qt.Key.Key_Period: 1}  # keys that step through the frames behind
@@ -101,13 +101,13 @@ class MergeDialog(QDialog):
             return tr("No point in common.")
 
         def told(key: str, form: str) -> str:
-            return form.format(f[key]) if math.isfinite(f[key]) else "–"
+            return decimal(f[key], form) if math.isfinite(f[key]) else "–"
 
         return tr("{n} tracks in common. AJ {aj}, δ {delta}, OA {oa} %. Distance where both see the point: median "
                   "{median} px, 90 % below {p90} px (1080 lines). Same state in {states}.").format(
-            n=int(f["tracks"]), aj=told("aj", "{:.1f}"), delta=told("delta", "{:.1f}"), oa=told("oa", "{:.1f}"),
-            median=told("median_px", "{:.2f}"), p90=told("p90_px", "{:.2f}"),
-            states=told("states", "{:.1%}"))  # fmt: skip
+            n=int(f["tracks"]), aj=told("aj", ".1f"), delta=told("delta", ".1f"), oa=told("oa", ".1f"),
+            median=told("median_px", ".2f"), p90=told("p90_px", ".2f"),
+            states=told("states", ".1%"))  # fmt: skip
 
     def _fill(self) -> None:
         self.table.setHorizontalHeaderLabels([tr("point"), tr("what"), tr("changed by"), tr("distance"), tr("take")])
@@ -119,7 +119,7 @@ class MergeDialog(QDialog):
         self.table.horizontalHeader().setSectionResizeMode(1, QHeaderView.ResizeMode.Stretch)
         who = {"mine": tr("you"), "theirs": tr("them"), "conflict": tr("both")}
         for row, one in enumerate(self.runs):
-            gap = f"{one.gap:.1f} px" if isinstance(one, MergeRun) and math.isfinite(one.gap) else ""
+            gap = f"{decimal(one.gap, '.1f')} px" if isinstance(one, MergeRun) and math.isfinite(one.gap) else ""
             fixed = locked(self._session.annotation, one)
             texts = [self._title(one), _what(one), tr("locked") if fixed else who.get(one.kind, one.kind), gap]
             for column, text in enumerate(texts):
