@@ -114,16 +114,17 @@ class Project:
 
         Args:
             edit: made from the annotation as it stands. One without changes is not recorded.
-            step: join the newest step instead of beginning one, provided that the step of this number is still in
-                effect; for what a machine finds in answer to a person's edit. If it is not, nothing is done.
+            step: join the step of this number, for what a machine finds in answer to a person's edit. If it is no
+                longer in effect, nothing is done; if another came after it, the edit is a step of its own, so that
+                nobody takes back two deeds at once.
         """
         self._check_writable()
         if not edit.changes or (step is not None and not self.log.on_path(step)):
             return None
         edit.do(self.annotation)
         own = {"kind": edit.kind, "title": edit.title, "frame": edit.frame, "track": edit.track}
-        if step is not None:
-            own["step"] = self.log.edit(self.log.head).step
+        if step is not None and self.log.edit(self.log.head).step == step:
+            own["step"] = step
         row = self.log.new_row("do", self.log.head, self.person, own)
         self._remember(row.seq, edit)
         self._append(row, encode_edit(edit), _tables(edit))

@@ -40,6 +40,8 @@ class SolveRequest:
         object_id: whose tracks. size: (width, height) of the source.
         tracks: ids (n,). cells: all T frames of each, copied.
         key: (track, frame) of the key to answer; None to seed everything.
+        anew: the key's segments are followed anew, not begun from where they stand: for places that a deleted key, a
+            line or a hold has left behind.
     """
 
     object_id: int
@@ -47,12 +49,16 @@ class SolveRequest:
     tracks: tuple[int, ...]
     cells: tuple[Cells, ...]
     key: tuple[int, int] | None
+    anew: bool = False
 
     @staticmethod
-    def of(annotation: Annotation, object_id: int, key: tuple[int, int] | None = None) -> SolveRequest:
+    def of(
+        annotation: Annotation, object_id: int, key: tuple[int, int] | None = None, anew: bool = False
+    ) -> SolveRequest:
         """The tracks of an object that have a key."""
         ids = tuple(i.id for i in annotation.tracks_of(object_id) if len(annotation.keys(i.id)))
-        return SolveRequest(object_id, annotation.size, ids, tuple(annotation.track(i).copy() for i in ids), key)
+        return SolveRequest(object_id, annotation.size, ids, tuple(annotation.track(i).copy() for i in ids), key,
+                            anew)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -114,6 +120,10 @@ class TrackSolver:
             xy = _chained(motion, xy, known, fixed, progress, cancelled)
         else:
             row, t = request.tracks.index(request.key[0]), request.key[1]
+            if request.anew:
+                start, stop = _segments(request.cells[row], t)
+                again = _chained(motion, xy[[row]], known[[row]], fixed[[row]], None, cancelled)
+                xy[row, start:stop] = again[0, start:stop]
             relinked = self._relink(motion, xy, fixed, t)
             first, end = (max(t - max(SPANS), 0), end) if relinked else _segments(request.cells[row], t)
             rows = rows if relinked else [row]

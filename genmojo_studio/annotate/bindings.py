@@ -11,6 +11,7 @@ import numpy as np
 from genmojo_core.tracks import edit_tracks
 from genmojo_core.tracks.suspicion import Spot
 from genmojo_studio.annotate import steps, verbs
+from genmojo_studio.annotate.accepting import Accepting
 from genmojo_studio.annotate.actions import KEYED
 from genmojo_studio.annotate.dialogs import Dialogs
 from genmojo_studio.annotate.going import Going
@@ -80,6 +81,7 @@ class Hands:
         self.objects = ObjectVerbs(workspace)
         self.placing = Placing(workspace, self.going)
         self.dialogs = Dialogs(workspace)
+        self.accepting = Accepting(self._s, workspace.screen_link, workspace.work.tracker)
         w = workspace
         w.canvas.picked.connect(self._s.select_track)
         w.canvas.toggled.connect(self.toggled)
@@ -131,7 +133,7 @@ class Hands:
             "track.on": lambda: tracker.run(1),
             "track.back": lambda: tracker.run(-1),
             "track.solve": lambda: tracker.run(0),
-            "track.mode": lambda: verbs.set_mode(s),
+            "track.mode": lambda: self._solved_after(verbs.set_mode),
             "track.clear_after": lambda: verbs.clear(s, after=True),
             "track.clear_before": lambda: verbs.clear(s, after=False),
             "track.swap": self.dialogs.swap,
@@ -169,7 +171,9 @@ class Hands:
             "file.tour": w.start_tour,
             "move.panel": w.next_panel,
             "move.panel_back": lambda: w.next_panel(-1),
-            "move.frame": w.back_to_frame,
+            "move.accept": self.accepting.accept,
+            "move.accept_back": lambda: self.accepting.accept(-1),
+            "move.frame": self._back_to_frame,
             **{f"panel.{name}": partial(self._panel, name) for name in w.docks},
             **{f"step.{n + 1}": partial(w.show_step, n) for n in range(len(steps.STEPS))},
         }
@@ -288,6 +292,8 @@ class Hands:
         dock.setVisible(not dock.isVisibleTo(self._w))
 
     def _mark_run(self, end: int) -> None:
+        if self._s.run_track != self._s.track:
+            self._s.run, self._s.run_track = (None, None), self._s.track
         ends = list(self._s.run)
         ends[end] = self._s.frame
         self._s.run = (ends[0], ends[1])
@@ -297,9 +303,17 @@ class Hands:
         first, last = verbs.marked_run(self._s)
         self._s.said.emit(tr("Marked: frames {a} to {b}. A state or X applies to them.").format(a=first, b=last))
 
+    def _back_to_frame(self) -> None:
+        """The keyboard to the frame; what was begun there is forgotten."""
+        self._s.run = (None, None)
+        self._s.settings_changed.emit()
+        self._s.shown.emit()
+        self._w.back_to_frame()
+
     def _solved_after(self, verb: Callable[..., object]) -> None:
+        before = self._s.annotation.revision
         verb(self._s)
-        if self._s.track is not None:
+        if self._s.track is not None and self._s.annotation.revision != before:
             self._w.work.tracker.after_key(self._s.track, self._s.frame, self._s.project.log.head)
 
     def _fixed(self) -> None:

@@ -62,5 +62,8 @@ def give_back(root: QWidget, canvas: QWidget) -> None:
         button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
     for tree in root.findChildren(QTreeWidget):
         tree.itemClicked.connect(lambda *_: canvas.setFocus())
+    for field in root.findChildren(QLineEdit):
+        if not isinstance(field.parent(), (QAbstractSpinBox, QComboBox)):
+            field.returnPressed.connect(canvas.setFocus)
     for queue in root.findChildren(QListWidget):
         queue.itemClicked.connect(lambda *_: canvas.setFocus())

@@ -7,7 +7,6 @@ from collections.abc import Callable
 import numpy as np
 
 from genmojo_core.tracks.suspicion import Spot
-from genmojo_studio.annotate import verbs
 from genmojo_studio.annotate.play_panel import Player
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.translate import told, tr
@@ -29,8 +28,6 @@ class Going:
             "move.previous": lambda: self.step(-1),
             "move.stride_next": lambda: self.step(s.stride),
             "move.stride_previous": lambda: self.step(-s.stride),
-            "move.accept": lambda: verbs.accept(s),
-            "move.accept_back": lambda: verbs.accept(s, -1),
             "move.ten_next": lambda: self.step(10),
             "move.ten_previous": lambda: self.step(-10),
             "move.hundred_next": lambda: self.step(100),

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE
+from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
 from genmojo_studio.actions import ActionTable
 from genmojo_studio.annotate.dope_sheet import DopeSheet
 from genmojo_studio.annotate.graphs import Graphs
@@ -144,7 +144,8 @@ class PlayPanel(QWidget):
         self.position.setMinimumWidth(92)
         row.addSpacing(8)
         row.addWidget(self.position, 1)
-        for state, title in ((OCCLUDED, tr("occluded")), (OUT_OF_VIEW, tr("out of view")), (VISIBLE, tr("visible"))):
+        for state, title in ((OCCLUDED, tr("occluded")), (OUT_OF_VIEW, tr("out of view")), (VISIBLE, tr("visible")),
+                             (NONE, tr("nothing"))):  # fmt: skip
             self.brush.addItem(tr("paint {state}").format(state=title), state)
         self.brush.setAccessibleName(tr("State that a drag paints"))
         self.brush.setToolTip(tr("What a drag over the dope sheet paints"))

@@ -40,6 +40,7 @@ class RefinePage(QWidget):
         self.tree = TrackTree(session, ("state", "doubt"))
         self.place, self.state, self.seed, self.why = QLabel(), QLabel(), QLabel(), QLabel(wordWrap=True)
         self.note = QLineEdit(placeholderText=tr("note about this track"))
+        self._noted: int | None = None  # the track that the note on show belongs to
         self.queue = QListWidget()
         self.queue.setAccessibleName(tr("Suspicious spots, worst first"))
         self.queue.setWordWrap(True)
@@ -55,6 +56,7 @@ class RefinePage(QWidget):
         self.queue.itemActivated.connect(self._activated)
         self.queue.itemClicked.connect(self._activated)
         self.note.editingFinished.connect(self._keep_note)
+        session.selected.connect(self._other_note)
         session.shown.connect(self._later.start)
         session.frame_changed.connect(self._frame_changed)
         self.set_spots([])
@@ -130,8 +132,17 @@ class RefinePage(QWidget):
     def _activated(self, item: QListWidgetItem) -> None:
         self.spot_chosen.emit(item.data(Qt.ItemDataRole.UserRole))
 
+    def _other_note(self) -> None:
+        """Another track is active: what was typed is kept, and its own note is shown."""
+        self._keep_note()
+        self._noted = self._session.track
+        info = self._session.annotation.tracks.get(self._noted or 0)
+        self.note.setText(info.note if info is not None else "")
+
     def _keep_note(self) -> None:
-        session, track = self._session, self._session.track
-        if track is not None and self.note.text() != session.annotation.tracks[track].note:
-            edit = update_track(session.annotation, track, say("note"), session.frame, note=self.note.text()[:400])
+        """A note goes to the track that it was typed for, whichever is active by now."""
+        session, track = self._session, self._noted
+        info = session.annotation.tracks.get(track or 0)
+        if info is not None and self.note.text() != info.note:
+            edit = update_track(session.annotation, info.id, say("note"), session.frame, note=self.note.text()[:400])
             session.do(edit)

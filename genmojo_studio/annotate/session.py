@@ -67,7 +67,8 @@ class Session(QObject):
         self.clip: Clip | None = None  # the whole clip at reduced size, read in the background
         self.stride, self.trail, self.mask_mode = 2, TRAILS[1], 1
         self.active = (0, 1)  # object id, number 1..; the point that a click places
-        self.run: tuple[int | None, int | None] = (None, None)  # marked by [ and ]
+        self.run: tuple[int | None, int | None] = (None, None)  # marked by [ and ], on this track:
+        self.run_track: int | None = None
         self.painting: Painting | None = None
         self.other: Other | None = None
         self.suspicion: dict[int, np.ndarray] = {}  # track -> (T,) 0..1

@@ -20,7 +20,7 @@ from genmojo_core.trackers.evidence import scene_of
 from genmojo_core.trackers.seeding import Queries, Seeder, proposals
 from genmojo_core.trackers.solver import SolveAnswer, SolveRequest, TrackSolver
 from genmojo_core.tracks import keys, suspicion
-from genmojo_core.tracks.annotation import KEY, TRACKER, Annotation, Cells, Proposal
+from genmojo_core.tracks.annotation import BY_TRACKER, KEY, TRACKER, Annotation, Cells, Proposal
 from genmojo_core.tracks.edits import join
 from genmojo_core.tracks.model import NONE
 from genmojo_core.tracks.suspicion import Calibration, Evidence, Spot, Suspicion
@@ -50,6 +50,7 @@ class Tracking(QObject):
     solved = Signal(int)  # tracks changed
     progressed = Signal(float)  # 0..1 of a seeding
     measured = Signal(object)  # track -> {"fb": (T,) px, "ncc": (T,)}, for graphs
+    settled = Signal()  # every solution that was asked for is there
     seeded = Signal(int)  # tracks filled, 0 if cancelled or failed
 
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
@@ -64,6 +65,8 @@ class Tracking(QObject):
         self._stale: set[int] = set()  # objects whose evidence is to be gathered again
         self._gathering = False
         self._closed = False
+        self.pending = 0  # solutions asked for and not there yet
+        self._following: list[int] = []  # directions to follow the active point in, one after the other
         self._cancelled = threading.Event()
         self._look = QTimer(self, singleShot=True, interval=_PATIENCE)
         self._look.timeout.connect(self._judge)
@@ -163,46 +166,73 @@ class Tracking(QObject):
         self.seeded.emit(count)
 
     def after_key(self, track: int, frame: int, step: int | None) -> None:
-        """Solve the segments on both sides of a key that a person has just placed, as part of that step."""
-        info = self._session.annotation.tracks.get(track)
-        if info is None or not _is_key(self._session.annotation, track, frame):
+        """Solve the segments on both sides of a key that a person has just placed, as part of that step; where the
+        key was taken away, the segment that it divided."""
+        annotation = self._session.annotation
+        info = annotation.tracks.get(track)
+        if info is None:
             return
-        request = SolveRequest.of(self._session.annotation, info.object, (track, frame))
+        span = None
+        if not _is_key(annotation, track, frame):
+            start, end = annotation.segment(track, frame)
+            anchor = start if start is not None else end
+            if anchor is None:
+                return
+            span, frame = _between(annotation, start, end), anchor
+        request = SolveRequest.of(annotation, info.object, (track, frame), anew=span is not None)
         if (np.count_nonzero(request.cells[request.tracks.index(track)].state)) > 1 or step is None:
-            self._ask(request, _Key(track, frame, step))
+            self._ask(request, _Key(track, frame, step), span)
 
     def run(self, direction: int) -> None:
         """Solve the active track from this frame to the next key (1), back to the one before (-1), or both (0)."""
         session, track = self._session, self._session.track
         if track is None:
             return
-        frame, last = session.frame, session.annotation.frames - 1
-        if not _is_key(session.annotation, track, frame):
-            start, end = session.annotation.segment(track, frame)
-            anchor = start if start is not None else end
-            if anchor is None:
-                session.said.emit(tr("Place this point first."))
-                return
-            frame = anchor
-        span = {1: (session.frame, last), -1: (0, session.frame), 0: (0, last)}[direction]
-        info = session.annotation.tracks[track]
-        self._ask(SolveRequest.of(session.annotation, info.object, (track, frame)), _Key(track, frame, None), span)
+        annotation, frame = session.annotation, session.frame
+        start, end = annotation.segment(track, frame)
+        anchor = start if start is not None else end
+        if anchor is None:
+            session.said.emit(tr("Place this point first."))
+            return
+        if anchor == frame and direction <= 0:  # on a key: what lies before it begins at the key before
+            start = max((k for k in annotation.keys(track).tolist() if k < frame), default=None)
+        first, last = _between(annotation, start, end)
+        span = {1: (frame, last), -1: (first, frame), 0: (first, last)}[direction]
+        if start is not None and end is not None and annotation.track(track).mode[start] != BY_TRACKER:
+            session.said.emit(tr("This segment is filled by line or hold; I changes that."))
+            return
+        info = annotation.tracks[track]
+        self._ask(SolveRequest.of(annotation, info.object, (track, anchor), anew=True), _Key(track, anchor, None), span)
 
     def one(self, direction: int) -> None:
         """Match the active point from this frame to the next or the one before, and go there.
 
-        What a person placed, accepted or painted there stays.
+        What a person placed, accepted or painted there stays. While one is under way, the next waits its turn.
         """
+        self._following.append(direction)
+        if len(self._following) == 1:
+            self._follow(direction)
+
+    def _followed(self) -> None:
+        """One frame is done; the next, if it was asked for."""
+        self._following = self._following[1:]
+        if self._following:
+            self._follow(self._following[0])
+
+    def _follow(self, direction: int) -> None:
         session, track, annotation = self._session, self._session.track, self._session.annotation
         frame, there = session.frame, session.frame + direction
         if track is None or not 0 <= there < annotation.frames:
+            self._following.clear()
             return
         cells = annotation.track(track).copy()
         if cells.state[frame] == NONE:
             session.said.emit(tr("Place this point first."))
+            self._following.clear()
             return
         clip = self._clip_with_masks()
         if clip is None:
+            self._following.clear()
             return
         request = SolveRequest(annotation.tracks[track].object, annotation.size, (track,), (cells,), (track, frame))
 
@@ -210,8 +240,11 @@ class Tracking(QObject):
             self._answered(answer, _Key(track, frame, None), None)
             if not answer.found:
                 session.said.emit(tr("The object is not seen in both frames; the point stays where it is."))
+                self._following.clear()
+            self._followed()
 
-        self.tasks.run(lambda: self._solver_for(clip).follow(request, there), followed, self._failed)
+        self.pending += 1
+        self.tasks.run(lambda: self._solver_for(clip).follow(request, there), followed, self._gave_up)
         session.go(there)
 
     def _ask(self, request: SolveRequest, key: _Key, span: tuple[int, int] | None = None) -> None:
@@ -219,11 +252,12 @@ class Tracking(QObject):
         if clip is None or not request.tracks:
             return
         self.busy_changed.emit(tr("Solving …"))
+        self.pending += 1
 
         def work() -> SolveAnswer:
             return self._solver_for(clip).answer(request)
 
-        self.tasks.run(work, lambda answer: self._answered(answer, key, span), self._failed)
+        self.tasks.run(work, lambda answer: self._answered(answer, key, span), self._gave_up)
 
     def _clip_with_masks(self) -> Clip | None:
         """The clip to track in; says so if there is none."""
@@ -253,6 +287,19 @@ class Tracking(QObject):
         self.solved.emit(len(answer.found))
         self._stale.add(answer.request.object_id)
         self._look.start()
+        self._arrived()
+
+    def _arrived(self) -> None:
+        """An answer, or word that there will be none."""
+        self.pending -= 1
+        if not self.pending:
+            self.settled.emit()
+
+    def _gave_up(self, error: BaseException) -> None:
+        self._following.clear()
+        self._failed(error)
+        if not self._closed:
+            self._arrived()
 
     # ---- judging
 
@@ -321,6 +368,11 @@ class Tracking(QObject):
 
 def _is_key(annotation: Annotation, track: int, frame: int) -> bool:
     return bool(annotation.cells(track, np.array([frame])).flags[0] & KEY)
+
+
+def _between(annotation: Annotation, start: int | None, end: int | None) -> tuple[int, int]:
+    """First and last frame of the segment between two keys, of the clip where there is none."""
+    return start if start is not None else 0, end if end is not None else annotation.frames - 1
 
 
 def _within(answer: SolveAnswer, span: tuple[int, int]) -> SolveAnswer:

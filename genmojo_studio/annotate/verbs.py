@@ -110,7 +110,11 @@ def paint_here(session: Session, state: int) -> int | None:
     if track is None:
         return None
     first, last = marked_run(session)
-    if first == last and state != VISIBLE and session.annotation.cells(track, np.array([first])).state[0] == state:
+    if (
+        first == last
+        and state not in (VISIBLE, NONE)
+        and session.annotation.cells(track, np.array([first])).state[0] == state
+    ):
         state = VISIBLE
     session.run = (None, None)
     return paint(session, track, state, first, last)
@@ -149,7 +153,8 @@ def toggle_uncertain(session: Session) -> None:
 
 def marked_run(session: Session) -> tuple[int, int]:
     """First and last frame marked by [ and ], this frame where one is missing."""
-    first, last = (session.frame if end is None else end for end in session.run)
+    run = session.run if session.run_track == session.track else (None, None)
+    first, last = (session.frame if end is None else end for end in run)
     return min(first, last), max(first, last)
 
 
@@ -182,8 +187,11 @@ def set_mode(session: Session) -> None:
     track = session.track
     if track is None:
         return
-    start, _ = session.annotation.segment(track, session.frame)
-    mode = int(session.annotation.track(track).mode[start]) if start is not None else 0
+    start, end = session.annotation.segment(track, session.frame)
+    if start is None or end is None:
+        session.said.emit(tr("Only between two keys there is a choice: place one on either side."))
+        return
+    mode = int(session.annotation.track(track).mode[start])
     names = (tr("tracker"), tr("line"), tr("hold"))
     step = attempt(session, lambda: keys.set_mode(session.annotation, track, session.frame, (mode + 1) % 3))
     if step is not None:
@@ -254,4 +262,4 @@ def _info(session: Session, track: int) -> TrackInfo:
     return session.annotation.tracks[track]
 
 
-STATES = {"occluded": OCCLUDED, "outside": OUT_OF_VIEW, "visible": VISIBLE}
+STATES = {"occluded": OCCLUDED, "outside": OUT_OF_VIEW, "visible": VISIBLE, "nothing": NONE}

@@ -16,6 +16,14 @@
       <translation>Bestandteile</translation>
     </message>
     <message>
+      <source>This frame is not on show yet.</source>
+      <translation>Dieses Bild ist noch nicht zu sehen.</translation>
+    </message>
+    <message>
+      <source>Solving; the frame is accepted right after.</source>
+      <translation>Wird gelöst; das Bild wird gleich danach angenommen.</translation>
+    </message>
+    <message>
       <source>Marked: frames {a} to {b}. A state or X applies to them.</source>
       <translation>Markiert: Bilder {a} bis {b}. Ein Zustand oder X gilt für sie.</translation>
     </message>
@@ -660,10 +668,6 @@
       <translation>{n} Spuren von {name} sind beiseitegelegt; sie kommen zurück, wenn es wieder gewählt wird.</translation>
     </message>
     <message>
-      <source>This frame is not on show yet.</source>
-      <translation>Dieses Bild ist noch nicht zu sehen.</translation>
-    </message>
-    <message>
       <source>All points are placed. Seed the tracks now (Ctrl+G).</source>
       <translation>Alle Punkte sind gesetzt. Verfolgen Sie sie jetzt (Strg+G).</translation>
     </message>
@@ -702,6 +706,10 @@
     <message>
       <source>Graphs</source>
       <translation>Kurven</translation>
+    </message>
+    <message>
+      <source>nothing</source>
+      <translation>nichts</translation>
     </message>
     <message>
       <source>frame {n} of {last}   {s:.2f} s</source>
@@ -926,10 +934,6 @@
     <message>
       <source>note about this track</source>
       <translation>Notiz zu dieser Spur</translation>
-    </message>
-    <message>
-      <source>nothing</source>
-      <translation>nichts</translation>
     </message>
     <message>
       <source>Queue: {n} left (N goes to the next)</source>
@@ -1696,6 +1700,10 @@
       <translation>Setzen Sie zuerst diesen Punkt.</translation>
     </message>
     <message>
+      <source>This segment is filled by line or hold; I changes that.</source>
+      <translation>Dieser Abschnitt wird durch Linie oder Halten gefüllt; I ändert das.</translation>
+    </message>
+    <message>
       <source>Seeding {n} tracks …</source>
       <translation>{n} Spuren werden vorgeschlagen …</translation>
     </message>
@@ -1734,6 +1742,10 @@
     <message>
       <source>Look at this point, then press Enter again.</source>
       <translation>Sehen Sie diesen Punkt an und drücken Sie noch einmal Enter.</translation>
+    </message>
+    <message>
+      <source>Only between two keys there is a choice: place one on either side.</source>
+      <translation>Nur zwischen zwei Schlüsseln gibt es eine Wahl: auf jede Seite einen setzen.</translation>
     </message>
     <message>
       <source>This segment is filled by: {mode}</source>
@@ -3806,6 +3818,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Zu sehen; halten und weitergehen malt.</translation>
     </message>
     <message>
+      <source>Not annotated</source>
+      <translation>Nicht annotiert</translation>
+    </message>
+    <message>
+      <source>Forgets the place; hold and step to paint a gap.</source>
+      <translation>Vergisst den Ort; halten und weitergehen malt eine Lücke.</translation>
+    </message>
+    <message>
       <source>Uncertain</source>
       <translation>Unsicher</translation>
     </message>
@@ -3914,16 +3934,16 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Nimmt den Punkt in das Bild davor mit.</translation>
     </message>
     <message>
-      <source>Track on to the end</source>
-      <translation>Bis zum Ende verfolgen</translation>
+      <source>Track on to the next key</source>
+      <translation>Weiter bis zum nächsten Schlüssel verfolgen</translation>
     </message>
     <message>
       <source>Solves from here to the next key.</source>
       <translation>Löst von hier bis zum nächsten Schlüssel.</translation>
     </message>
     <message>
-      <source>Track back to the start</source>
-      <translation>Bis zum Anfang verfolgen</translation>
+      <source>Track back to the key before</source>
+      <translation>Zurück bis zum Schlüssel davor verfolgen</translation>
     </message>
     <message>
       <source>Solves back to the key before.</source>

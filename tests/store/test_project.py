@@ -105,6 +105,22 @@ def test_what_a_tracker_answers_is_undone_with_the_key_it_answers(tmp_path: Path
     project.close()
 
 
+def test_a_late_answer_is_not_taken_back_with_what_was_done_meanwhile(tmp_path: Path) -> None:
+    project = begun(tmp_path / "p.genmojo")
+    step = project.do(keys.set_key(project.annotation, 1, 5, (10.0, 20.0)))
+    project.do(keys.set_key(project.annotation, 2, 5, (30.0, 20.0)))
+    rng = np.random.default_rng(0)
+    project.do(annotations.solution(project.annotation, 1, np.arange(24), rng), step=step)
+    solved = project.annotation.track(1).xy[9].tolist()
+    project.undo()
+    assert project.annotation.track(2).xy[5].tolist() == [30.0, 20.0], "only the answer was taken back"
+    assert project.annotation.track(1).xy[9].tolist() != solved
+    project.undo()
+    assert project.annotation.track(2).state[5] == 0
+    assert project.annotation.track(1).xy[5].tolist() == [10.0, 20.0]
+    project.close()
+
+
 def test_another_branch_can_be_returned_to(tmp_path: Path) -> None:
     project = begun(tmp_path / "p.genmojo")
     project.do(keys.set_key(project.annotation, 1, 5, (10.0, 20.0)))
