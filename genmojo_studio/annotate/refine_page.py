@@ -143,6 +143,7 @@ class RefinePage(QWidget):
         """A note goes to the track that it was typed for, whichever is active by now."""
         session, track = self._session, self._noted
         info = session.annotation.tracks.get(track or 0)
-        if info is not None and self.note.text() != info.note:
+        if info is not None and self.note.isModified() and self.note.text() != info.note:
+            self.note.setModified(False)
             edit = update_track(session.annotation, info.id, say("note"), session.frame, note=self.note.text()[:400])
             session.do(edit)
