@@ -15,6 +15,7 @@ from genmojo_core.cli.output import progress, say
 from genmojo_core.errors import GenmojoError
 
 if TYPE_CHECKING:
+    from genmojo_core.clip.clip import Clip
     from genmojo_core.store.track_sheet import TrackSheet, Which
 
 Tell = Callable[[float], None]
@@ -27,7 +28,7 @@ def add_commands(commands: Any) -> None:
     seed.add_argument("--points", required=True, metavar="p.npz", help="t (N,), xy (N, 2) pixels of the clip, optional "
                       "object (N,)")  # fmt: skip
     seed.add_argument("--tracker", default="optical", metavar="NAME[:PATH]", help="optical, scene:scene.h5, "
-                      "file:tracks.npz, cotracker:CHECKOUT")  # fmt: skip
+                      "file:tracks.npz, cotracker:CHECKOUT, cotracker:hub:MODEL")  # fmt: skip
     seed.add_argument("--checkpoint", metavar="FILE.pth", help="CoTracker's weights")
     seed.add_argument("--allow-download", action="store_true", help="cotracker:hub:MODEL may download and run code")
     seed.add_argument("-o", "--output", required=True, metavar="t.npz")
@@ -49,6 +50,7 @@ def run_seed(args: argparse.Namespace) -> dict[str, Any]:
     if seeder.licence:
         say(seeder.licence)
     clip = folders.read(args.clip, short_side=solver.SHORT_SIDE, ignore=("depth", "cameras", "flow"))
+    _check_points(args.points, clip, t, xy)
     owner = _owners(args.points, clip, t, xy)
     queries = seeding.Queries(t, xy, owner)
     say(f"about {seeder.forecast(clip, queries):.0f} s")
@@ -85,20 +87,34 @@ def read_sheet(path: str | Path, which: Which = "all") -> TrackSheet:
     return track_npz.read(file)
 
 
-def _owners(points: str, clip: Any, t: np.ndarray, xy: np.ndarray) -> np.ndarray:  # (N,) mask ids
+def _check_points(points: str, clip: Clip, t: np.ndarray, xy: np.ndarray) -> None:
+    """Raise GenmojoError("value") for a point outside the clip's frames or its picture."""
+    late = (t < 0) | (t >= len(clip))
+    if late.any():
+        raise GenmojoError("value", f"a query asks at frame {t[late][0]}, the clip has 0 to {len(clip) - 1}", points)
+    width, height = clip.source_size
+    outside = ((xy < 0) | (xy > (width, height))).any(axis=1)
+    if outside.any():
+        raise GenmojoError("value", f"asks at {xy[outside][0].round(1).tolist()}, outside the {width} x {height} "
+                           "picture", points, "give raster pixels of the clip")  # fmt: skip
+
+
+def _owners(points: str, clip: Clip, t: np.ndarray, xy: np.ndarray) -> np.ndarray:  # (N,) mask ids
     """Whose each query is: as its file says, else the object whose mask covers it, or the nearest to it."""
     from genmojo_core.store.npz import read_arrays
     from genmojo_core.store.track_import import nearest_object
 
     arrays = read_arrays(points)
     if "object" in arrays:
-        return np.asarray(arrays["object"]).astype(np.int64).reshape(-1)
+        told = np.asarray(arrays["object"])
+        if told.shape != t.shape or told.dtype.kind not in "iub":
+            raise GenmojoError("schema", f"object is {told.shape} {told.dtype} for {len(t)} points, expected whole "
+                               "numbers (N,)", points)  # fmt: skip
+        return told.astype(np.int64)
     if clip.masks is None or not len(clip.object_ids):
         return np.zeros(len(t), np.int64)
     out = np.zeros(len(t), np.int64)
     for n, (frame, place) in enumerate(zip(t, xy / np.array(clip.source_size), strict=True)):
-        if not 0 <= frame < len(clip):
-            raise GenmojoError("value", f"a query asks at frame {frame}, the clip has 0 to {len(clip) - 1}", points)
         found = nearest_object(clip.masks.value[frame], place)
         out[n] = clip.object_ids[found - 1] if found else 0
     return out

@@ -138,40 +138,43 @@ def in_windows(
 ) -> tuple[np.ndarray, np.ndarray]:  # (T, N, 2), (T, N) bool
     """Run a tracker over windows of at most `window` frames.
 
-    Each query begins in a window that holds its frame; the neighbours, which overlap by 8 frames, go on from its last
-    seen place in the shared frames. `run` gets the window's frames and queries with times counted in the window.
+    Each query begins in the last window that holds its frame. From there a sweep forwards and one backwards, in which
+    windows overlap by 8 frames or more, go on from its last seen place in the shared frames; a window is run with the
+    queries that have reached it. `run` gets the window's frames and queries with times counted in the window.
     """
     total, step = len(frames), max(window - _OVERLAP, 1)
     starts = [0] if total <= window else [*range(0, total - window, step), total - window]
     xy = np.full((total, len(queries), 2), np.nan, np.float32)
     seen = np.zeros((total, len(queries)), bool)
     known = np.zeros((total, len(queries)), bool)
-    home = [max(k for k, s in enumerate(starts) if s <= t and (t < s + window)) for t in queries[:, 0].astype(int)]
-    jobs = len(starts)
-    for turn, k in enumerate(sorted(range(jobs), key=lambda k: abs(k - home[0]) if home else k)):
+    times = queries[:, 0].astype(int)
+    home = np.array([max(k for k, s in enumerate(starts) if s <= t < s + window) for t in times], int)
+    jobs = [(k, np.flatnonzero(home <= k)) for k in range(len(starts))]
+    jobs += [(k, np.flatnonzero(home > k)) for k in reversed(range(len(starts)))]
+    jobs = [(k, rows) for k, rows in jobs if len(rows)]
+    for turn, (k, rows) in enumerate(jobs):
         first, end = starts[k], min(starts[k] + window, total)
-        asked = np.array([_entry(q, home[n] == k, first, end, (xy[:, n], seen[:, n], known[:, n]))
-                          for n, q in enumerate(queries)])  # fmt: skip
+        asked = np.array([_entry(queries[n], home[n] == k, first, end, (xy[:, n], seen[:, n], known[:, n]))
+                          for n in rows])  # fmt: skip
         places, visible = run(frames[first:end], asked)
-        for n in range(len(queries)):
+        for column, n in enumerate(rows):
             new = ~known[first:end, n]
-            xy[first:end, n][new], seen[first:end, n][new] = places[new, n], visible[new, n]
+            xy[first:end, n][new], seen[first:end, n][new] = places[new, column], visible[new, column]
             known[first:end, n] = True
         if progress is not None:
-            progress((turn + 1) / jobs)
+            progress((turn + 1) / len(jobs))
     return xy, seen
 
 
 def _entry(
     query: np.ndarray, own: bool, first: int, end: int, so_far: tuple[np.ndarray, np.ndarray, np.ndarray]
 ) -> np.ndarray:  # (3,) t in the window, x, y
-    """Where a point enters a window: its query, the seen shared frame deepest in the window, or any shared one."""
+    """Where a point enters a window: its query, or of the frames shared with the window that it comes from the seen one
+    deepest in this window, else the deepest."""
     if own:
         return np.array([query[0] - first, query[1], query[2]])
     xy, seen, known = so_far
     shared = np.flatnonzero(known[first:end])
-    if not len(shared):
-        return np.array([0.0, query[1], query[2]])
     good = shared[seen[first:end][shared]]
     entry = int((good if len(good) else shared)[-1 if shared[0] == 0 else 0])
     return np.array([entry, *xy[first + entry]])

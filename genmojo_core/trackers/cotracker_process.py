@@ -8,6 +8,7 @@ answer: tracks (T, N, 2), visibility (T, N).
 
 from __future__ import annotations
 
+import inspect
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -37,15 +38,37 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _from_checkout(checkout: str, checkpoint: str) -> Any:
-    """The predictor of a local checkout. CoTracker 2 weights are told by their name, as its own demo does."""
+    """The predictor of a local checkout with the weights: of the kinds of model that its source can make, the one that
+    the weights' name tells, else the first that takes them."""
     sys.path.insert(0, checkout)
     from cotracker.predictor import CoTrackerPredictor
 
-    second = "cotracker2" in Path(checkpoint).stem or "v2" in Path(checkpoint).stem
-    options: dict[str, Any] = {"offline": True, "window_len": 60}
-    if second:
-        options = {"v2": True, "offline": True, "window_len": 8}
-    return CoTrackerPredictor(checkpoint=checkpoint, **options)
+    known = inspect.signature(CoTrackerPredictor.__init__).parameters
+    kinds = _kinds(Path(checkpoint).stem.lower(), "v2" in known, "window_len" in known)
+    for options in kinds[:-1]:
+        try:
+            return CoTrackerPredictor(checkpoint=checkpoint, **options)
+        except RuntimeError as error:  # what torch raises for weights of another model
+            sys.stderr.write(f"{options}: {error}\n")
+    return CoTrackerPredictor(checkpoint=checkpoint, **kinds[-1])
+
+
+def _kinds(weights: str, third: bool, windows: bool) -> list[dict[str, Any]]:
+    """Options of the predictor for every kind of model, the likeliest first.
+
+    CoTracker 3's source makes its own models, offline and online, and both of CoTracker 2's; CoTracker 2's source only
+    those; CoTracker 1's takes a checkpoint and nothing else.
+    """
+    if not windows:
+        return [{}]
+    v1 = "v1" in weights or "wind_16" in weights
+    second: list[dict[str, Any]] = [{"window_len": 16 if v1 else 8}, {"window_len": 8 if v1 else 16}]
+    if not third:
+        return second
+    second = [{"v2": True} | options for options in second]
+    own: list[dict[str, Any]] = [{"offline": True, "window_len": 60}, {"offline": False, "window_len": 16}]
+    own = own[::-1] if "online" in weights else own
+    return second + own if "cotracker2" in weights or "v2" in weights else own + second
 
 
 def _from_hub(torch: Any, name: str) -> Any:

@@ -9,7 +9,7 @@ falls just beside an object belongs to it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -28,7 +28,9 @@ BEHIND = 0.02  # of the object's size: farther behind its own rendered surface i
 NEARBY = 0.01  # of the short side: places are good to about this, so the surface is looked up this far around
 SHOWS = 0.4  # of a pixel: what its own object must fill for a point there to be seen; outlines are good to a pixel
 RIM = 0.015  # of the short side: a query on the background this near an object is meant for the object
+LIKENESS_SHORT_SIDE = 96  # pixels of the pictures in which a scene is compared with a clip
 TEST_SHORT_SIDE = 384  # pixels at most of the images in which visibility is tested
+_ENOUGH = 50  # pixels to be covered before a likeness means anything
 _SEEN_ALPHA = 0.5  # coverage from which a pixel shows something
 
 
@@ -51,8 +53,12 @@ def track(
     t: np.ndarray,  # (N,) frame positions
     xy: np.ndarray,  # (N, 2) raster px of the clip's source
     progress: Callable[[float], None] | None = None,
+    owner: np.ndarray | None = None,  # (N,) ids of objects of the scene, 0: whatever shows there
+    cancelled: Callable[[], bool] | None = None,
 ) -> PointTracks:
     """Tracks of N queries over all frames, in source pixels, with world positions and the owner's id.
+
+    A query that says whose it is goes with that object, also where another one hides it in the scene.
 
     A point is visible where SHOWS of its pixel is its instance and the point is not behind the instance's own surface:
     a solid hides its far side, at a gap that is small against the distance to the camera but not against the object.
@@ -60,13 +66,15 @@ def track(
     place). Outside the picture it is OUT_OF_VIEW. In its own query frame it is the query itself.
 
     Raises GenmojoError: "empty" for a file without Gaussians or without queries, "argument" for a query outside the
-    frames or the picture.
+    frames or the picture, for an owner that the scene does not have, and when it was cancelled.
     """
     t, xy = np.asarray(t, np.int64), np.asarray(xy, np.float64)
     _check_queries(scene, t, xy)
-    carriers = _carriers(scene, t, xy)
+    carriers = _carriers(scene, t, xy, _instances(scene, np.zeros(len(t), np.int64) if owner is None else owner))
     positions, states, world = [], [], []
     for i in range(len(scene)):
+        if cancelled is not None and cancelled():
+            raise GenmojoError("argument", "was cancelled", "seeding")
         frame = scene.frame(i)
         points = _carried(carriers, scene, frame, i, t)
         pixels, depth = project(points, scene.cameras.view(i))
@@ -81,6 +89,26 @@ def track(
     ids = np.array([o.id for o in scene.objects], np.int64)
     return PointTracks(everything.astype(np.float32), state, ids[carriers.object], scene.cameras.size,
                        np.stack(world, axis=1).astype(np.float32))  # fmt: skip
+
+
+def likeness(scene: BakedScene, frames: np.ndarray, times: Sequence[int]) -> float:  # (T, H, W, 3) uint8 RGB
+    """How much a scene looks like frames of a clip: the correlation of small pictures of both, -1..1.
+
+    Only pixels that the scene covers count; NaN where it covers next to nothing, or all is of one colour.
+    """
+    theirs, ours = [], []
+    for t in times:
+        view, frame = scene.cameras.view(t), scene.frame(t)
+        scale = min(1.0, LIKENESS_SHORT_SIDE / min(view.width, view.height))
+        small = view.resized(max(1, round(view.width * scale)), max(1, round(view.height * scale)))
+        drawn = rasterize(Splats(frame.means, frame.quats, frame.scales, frame.opacities, frame.rgb), small)
+        covered = drawn.alpha > _SEEN_ALPHA
+        ours.append(drawn.features[covered])
+        theirs.append(cv2.resize(frames[t], (small.width, small.height), interpolation=cv2.INTER_AREA)[covered])
+    a, b = np.concatenate(ours).astype(np.float64), np.concatenate(theirs) / 255.0
+    if len(a) < _ENOUGH or not (a.std() > 0 and b.std() > 0):
+        return float("nan")
+    return float(np.corrcoef(a.ravel(), b.ravel())[0, 1])
 
 
 def project(points: np.ndarray, view: View) -> tuple[np.ndarray, np.ndarray]:  # (N, 3) -> (N, 2) px, (N,) z
@@ -106,8 +134,18 @@ def _check_queries(scene: BakedScene, t: np.ndarray, xy: np.ndarray) -> None:
                            "give raster pixels of the clip")  # fmt: skip
 
 
-def _carriers(scene: BakedScene, t: np.ndarray, xy: np.ndarray) -> Carriers:
-    """Find every query's instance, contributors and surface point in its own frame."""
+def _instances(scene: BakedScene, owner: np.ndarray) -> np.ndarray:  # (N,) positions in scene.objects, -1 for id 0
+    """Where the owners are among the scene's objects. Raises GenmojoError("argument") for one that is not there."""
+    place = {o.id: k for k, o in enumerate(scene.objects) if o.count and not o.is_background}
+    unknown = set(owner.tolist()) - place.keys() - {0}
+    if unknown:
+        raise GenmojoError("argument", f"has no object {min(unknown)} to carry points", "scene",
+                           "optimise it with that object's masks")  # fmt: skip
+    return np.array([place.get(k, -1) for k in owner.tolist()], np.int64)
+
+
+def _carriers(scene: BakedScene, t: np.ndarray, xy: np.ndarray, instance: np.ndarray) -> Carriers:
+    """Find every query's instance (given, or -1), contributors and surface point in its own frame."""
     count = min(CARRIERS, len(scene.xyz))
     rows, weights = np.zeros((len(t), count), np.int64), np.zeros((len(t), count))
     offsets, owner = np.zeros((len(t), count, 3)), np.zeros(len(t), np.int64)
@@ -117,12 +155,14 @@ def _carriers(scene: BakedScene, t: np.ndarray, xy: np.ndarray) -> Carriers:
         turns = quaternion_to_matrix(frame.quats.astype(np.float64))
         camera_to_world = np.linalg.inv(view.world_to_camera)
         shares, _ = _shares(scene, frame, view)
-        of_objects = ~np.array([o.is_background for o in scene.objects])[np.argmax(shares, axis=-1)]
-        on_object = of_objects & (shares.sum(axis=-1) > _SEEN_ALPHA)
+        winners = np.where(shares.sum(axis=-1) > _SEEN_ALPHA, np.argmax(shares, axis=-1), -1)
+        of_objects = [k for k, o in enumerate(scene.objects) if not o.is_background]
         for n in np.flatnonzero(t == i):
-            place = _onto_object(xy[n], on_object, view)
-            share = _contributions(place, means, conics, depth, frame.opacities)
-            rows[n], weights[n], owner[n] = _choose(share, frame, xy[n], means, depth, count)
+            mine = np.full(len(means), True) if instance[n] < 0 else frame.object_index == instance[n]
+            place = _onto_object(xy[n], np.isin(winners, of_objects if instance[n] < 0 else instance[n]), view)
+            share = _contributions(place, means, conics, depth, np.where(mine, frame.opacities, 0.0))
+            near = np.where(mine, depth, np.inf)
+            rows[n], weights[n], owner[n] = _choose(share, frame, xy[n], means, near, count)
             z = _surface_depth(depth[rows[n]], weights[n])
             ray = np.array([(xy[n, 0] - view.cx) / view.fx, (xy[n, 1] - view.cy) / view.fy, 1.0])
             point = camera_to_world[:3, :3] @ (ray * z) + camera_to_world[:3, 3]

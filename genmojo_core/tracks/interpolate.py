@@ -50,6 +50,20 @@ def carried(count: int, t: int, previous: int | None, following: int | None, shi
     return (weight[:, None] * np.asarray(shift, np.float64)).astype(np.float32)
 
 
+def through(xy: np.ndarray, known: np.ndarray, at: np.ndarray, places: np.ndarray) -> np.ndarray:  # (T, 2)
+    """A way xy (T, 2) moved so that it passes through places (m, 2) in frames at (m,), rising.
+
+    What is missing at each of these frames fades linearly to the next of them, and stays before the first and after the
+    last. Frames of which the way knows nothing, known (T,) bool, say nothing.
+    """
+    told = known[at]
+    at, gap = at[told], places[told] - xy[at[told]]
+    if not len(at):
+        return xy
+    frames = np.arange(len(xy))
+    return (xy + np.stack([np.interp(frames, at, gap[:, axis]) for axis in (0, 1)], axis=1)).astype(np.float32)
+
+
 def placed(tracks: PointTracks) -> PointTracks:
     """The same tracks with a place wherever they have a state.
 

@@ -23,7 +23,7 @@ from genmojo_core.tracks.annotation import (
     Proposal,
 )
 from genmojo_core.tracks.edits import CellsChange, Edit, cells_change, join
-from genmojo_core.tracks.interpolate import between, carried
+from genmojo_core.tracks.interpolate import between, carried, through
 from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
 
 GAP = 3  # frames between two visits that are taken to go on as both of them
@@ -60,19 +60,19 @@ def set_key(
         new.flags[t] |= PAINTED
     new.source[t], new.conf[t] = HUMAN, 1.0
     new = _by_rule(new, [k for k in (previous, t, following) if k is not None])
-    return _edit(annotation, "key", say("place", point=_name(annotation, track)), track, t, new)
+    return _edit(annotation, "key", say("place", point=name_of(annotation, track)), track, t, new)
 
 
 def remove_key(annotation: Annotation, track: int, t: int) -> Edit:
     """The key of frame t becomes an ordinary place again."""
     cells = _open(annotation, track, t, t)
     if not cells.flags[t] & KEY:
-        raise GenmojoError("argument", f"{_name(annotation, track)} has no key in frame {t}")
+        raise GenmojoError("argument", f"{name_of(annotation, track)} has no key in frame {t}")
     new = cells.copy()
     new.flags[t] &= 0xFF ^ (KEY | CONFIRMED | SNAPPED)
     new.conf[t], new.mode[t] = 0.5, BY_TRACKER
     around = [k for k in _neighbours(annotation, track, t) if k is not None]
-    title = say("delete_key", point=_name(annotation, track))
+    title = say("delete_key", point=name_of(annotation, track))
     return _edit(annotation, "unkey", title, track, t, _by_rule(new, around))
 
 
@@ -89,7 +89,7 @@ def set_state(annotation: Annotation, track: int, first: int, last: int, state: 
         lost = np.flatnonzero(cells.state[run] == NONE) + first
         new.xy[lost] = _nearest_known(annotation, cells, lost)
         new.state[run], new.flags[run] = state, new.flags[run] | PAINTED
-    title = say(_PAINTED[state], point=_name(annotation, track), frames=_frames(first, last))
+    title = say(_PAINTED[state], point=name_of(annotation, track), frames=_frames(first, last))
     return _edit(annotation, "states", title, track, first, new)
 
 
@@ -98,7 +98,7 @@ def set_uncertain(annotation: Annotation, track: int, first: int, last: int, on:
     cells = _open(annotation, track, first, last)
     new, run = cells.copy(), slice(first, last + 1)
     new.flags[run] = new.flags[run] | UNCERTAIN if on else new.flags[run] & (0xFF ^ UNCERTAIN)
-    title = say("uncertain" if on else "certain", point=_name(annotation, track), frames=_frames(first, last))
+    title = say("uncertain" if on else "certain", point=name_of(annotation, track), frames=_frames(first, last))
     return _edit(annotation, "uncertain", title, track, first, new)
 
 
@@ -122,7 +122,7 @@ def confirm(annotation: Annotation, tracks: list[int], t: int, on: bool = True) 
         changes.append(cells_change(annotation, track, frames, cells))
     made = tuple(c for c in changes if c is not None)
     if on and len(made) == 1:
-        title = say("accept_point", point=_name(annotation, made[0].track))
+        title = say("accept_point", point=name_of(annotation, made[0].track))
     else:
         title = say("accept_points" if on else "reopen_points", count=len(made))
     return Edit("confirm", title, made, t, made[0].track if made else None)
@@ -133,11 +133,11 @@ def set_mode(annotation: Annotation, track: int, t: int, mode: int) -> Edit:
     cells = _open(annotation, track, t, t)
     start, end = annotation.segment(track, t)
     if start is None:
-        raise GenmojoError("argument", f"{_name(annotation, track)} has no key before frame {t}")
+        raise GenmojoError("argument", f"{name_of(annotation, track)} has no key before frame {t}")
     new = cells.copy()
     new.mode[start] = mode
     new = _by_rule(new, [k for k in (start, end) if k is not None])
-    return _edit(annotation, "mode", say("fill_mode", point=_name(annotation, track)), track, t, new)
+    return _edit(annotation, "mode", say("fill_mode", point=name_of(annotation, track)), track, t, new)
 
 
 def clear(annotation: Annotation, track: int, first: int, last: int) -> Edit:
@@ -146,7 +146,7 @@ def clear(annotation: Annotation, track: int, first: int, last: int) -> Edit:
 
 
 def solved(annotation: Annotation, track: int, frames: np.ndarray, cells: Cells, title: str = "") -> Edit:
-    """A machine's positions and states for some frames.
+    """A machine's positions and states for some frames; where its state is NONE it says nothing, and nothing changes.
 
     Keys, confirmed frames, segments by line or hold and locked tracks keep what they have; painted states stay, only
     their positions move.
@@ -155,26 +155,33 @@ def solved(annotation: Annotation, track: int, frames: np.ndarray, cells: Cells,
     now = annotation.track(track)
     if annotation.tracks[track].locked:
         return Edit("solve", title, (), machine=True)
-    free = ~_protected(now)[frames] & (_mode_of(now)[frames] == BY_TRACKER)
+    free = (cells.state != NONE) & ~_protected(now)[frames] & (_mode_of(now)[frames] == BY_TRACKER)
     frames, cells = frames[free], Cells(*(a[free] for a in cells.arrays()))
     flags = now.flags[frames]
     painted = (flags & PAINTED) > 0
     state = np.where(painted, now.state[frames], cells.state).astype(np.uint8)
-    xy = np.where((state == NONE)[:, None], 0.0, cells.xy).astype(np.float32)
-    new = Cells(xy, state, flags, cells.source, cells.conf.astype(np.float32), now.mode[frames])
+    new = Cells(
+        cells.xy.astype(np.float32), state, flags, cells.source, cells.conf.astype(np.float32), now.mode[frames]
+    )
     change = cells_change(annotation, track, frames, new)
     where = int(change.frames[0]) if change is not None else None
-    title = title or say("solve", point=_name(annotation, track))
+    title = title or say("solve", point=name_of(annotation, track))
     return Edit("solve", title, (change,) if change is not None else (), where, track, machine=True)
 
 
 def accept(annotation: Annotation, proposals: dict[int, Proposal], source: int) -> Edit:
-    """Tracks take what a tracker proposes, wherever no person has said otherwise."""
+    """Tracks take what a tracker proposes, wherever no person has said otherwise.
+
+    A proposal is moved so that it passes through the keys and the accepted places (`interpolate.through`).
+    """
     parts = []
     frames = np.arange(annotation.frames)
     for track, p in proposals.items():
         small = np.full(annotation.frames, source, np.uint8)
-        cells = Cells(p.xy, p.state, np.zeros_like(small), small, p.conf, np.zeros_like(small))
+        now = annotation.track(track)
+        sure = np.flatnonzero(_protected(now) & (now.state != NONE))
+        xy = through(p.xy, p.state != NONE, sure, now.xy[sure])
+        cells = Cells(xy, p.state, np.zeros_like(small), small, p.conf, np.zeros_like(small))
         parts.append(solved(annotation, track, frames, cells))
     name = next(iter(proposals.values())).tracker if proposals else "nothing"
     made = [part for part in parts if part.changes]
@@ -197,7 +204,7 @@ def _open(annotation: Annotation, track: int, first: int, last: int) -> Cells:
     if not 0 <= first <= last < annotation.frames:
         raise GenmojoError("argument", f"frames {first} to {last} are not in 0 to {annotation.frames - 1}")
     if annotation.tracks[track].locked:
-        raise GenmojoError("argument", f"{_name(annotation, track)} is locked", hint="unlock it first")
+        raise GenmojoError("argument", f"{name_of(annotation, track)} is locked", hint="unlock it first")
     return cells
 
 
@@ -247,8 +254,8 @@ def _edit(annotation: Annotation, kind: str, title: str, track: int, t: int, new
     return Edit(kind, title, (change,) if change is not None else (), t, track)
 
 
-def _name(annotation: Annotation, track: int) -> str:
-    """What a person calls a track."""
+def name_of(annotation: Annotation, track: int) -> str:
+    """What a person calls a track, a sentence of the core."""
     info = annotation.tracks[track]
     owner = annotation.objects.get(info.object)
     called = owner.name if owner else say("object_number", number=info.object)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -17,7 +18,7 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.sentences import say
 from genmojo_core.trackers.evidence import scene_of
-from genmojo_core.trackers.seeding import Queries, Seeder, proposals
+from genmojo_core.trackers.seeding import Queries, Seeder, merged, proposals
 from genmojo_core.trackers.solver import SolveAnswer, SolveRequest, TrackSolver
 from genmojo_core.tracks import keys, suspicion
 from genmojo_core.tracks.annotation import BY_TRACKER, KEY, TRACKER, Annotation, Cells, Proposal
@@ -27,9 +28,10 @@ from genmojo_core.tracks.suspicion import Calibration, Evidence, Spot, Suspicion
 from genmojo_studio import notify
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.background import Tasks
-from genmojo_studio.translate import fault, tr
+from genmojo_studio.translate import fault, told, tr
 
 SHOWN = 0.15  # score from which a spot stands in the queue
+_NAMED = 4  # tracks named in a sentence at most
 _PATIENCE = 350  # ms without an edit after which suspicion is ranked anew
 
 
@@ -94,47 +96,69 @@ class Tracking(QObject):
         requests = [r for r in requests if r.tracks]
         if clip is None or not requests:
             return False
-        self._cancelled.clear()
+        cancelled = self._begin()
         self.busy_changed.emit(tr("Seeding {n} tracks …").format(n=sum(len(r.tracks) for r in requests)))
 
         def work() -> list[SolveAnswer]:
             solver = self._solver_for(clip)
-            return [solver.answer(r, self._progress(n, len(requests)), self._cancelled.is_set)
+            return [solver.answer(r, self._progress(n, len(requests)), cancelled.is_set)
                     for n, r in enumerate(requests)]  # fmt: skip
 
-        self.tasks.run(work, self._seeded, self._failed)
+        self._run(work, self._seeded, cancelled)
         return True
 
     def seed_by(self, seeder: Seeder, objects: list[int]) -> bool:
         """Let another tracker propose positions for the tracks of objects; False if there is nothing to seed."""
         session, clip = self._session, self._session.clip
-        ids, queries = Queries.of(session.annotation, [i.id for o in objects for i in session.annotation.tracks_of(o)])
+        asked = [i.id for o in objects for i in session.annotation.tracks_of(o) if len(session.annotation.keys(i.id))]
+        ids, queries = Queries.of(session.annotation, asked)
         if clip is None or not ids:
-            session.said.emit(tr("The clip is still being read.") if clip is None else tr("Place points first."))
+            lacking = tr("Place points where they are seen.") if asked else tr("Place points first.")
+            session.said.emit(tr("The clip is still being read.") if clip is None else lacking)
             return False
-        self._cancelled.clear()
+        cancelled = self._begin()
         self.busy_changed.emit(tr("Seeding by {name} …").format(name=seeder.name))
 
         def work() -> dict[int, Proposal]:
-            found = seeder.seed(clip, queries, self._progress(0, 1), self._cancelled.is_set)
+            found = merged(seeder.seed(clip, queries, self._progress(0, 1), cancelled.is_set), queries)
             return proposals(found, ids, seeder.name)
 
-        self.tasks.run(work, self._proposed, self._failed)
+        self._run(work, lambda found: self._proposed(found, asked), cancelled)
         return True
 
-    def _proposed(self, found: dict[int, Proposal]) -> None:
+    def _begin(self) -> threading.Event:
+        """What cancels the seeding that begins now; one that still runs is cancelled."""
+        self._cancelled.set()
+        self._cancelled = threading.Event()
+        return self._cancelled
+
+    def _run(self, work: Callable[[], Any], done: Callable[[Any], None], cancelled: threading.Event) -> None:
+        """Seed on the thread. Once it was cancelled its result changes nothing, however far it was."""
+
+        def ended(then: Callable[[], None]) -> None:
+            if not cancelled.is_set():
+                then()
+            elif not self._closed:
+                self.busy_changed.emit("")
+                self._session.said.emit(tr("Seeding was cancelled; nothing was changed."))
+                self.seeded.emit(0)
+
+        self.tasks.run(work, lambda found: ended(lambda: done(found)), lambda error: ended(lambda: self._failed(error)))
+
+    def _proposed(self, found: dict[int, Proposal], asked: list[int]) -> None:
         """Keep proposals beside the tracks, and take them wherever no person said otherwise."""
         if self._closed:
             return
         self.busy_changed.emit("")
         session = self._session
-        there = {t: p for t, p in found.items() if t in session.annotation.tracks}
+        there = {t: p for t, p in found.items() if t in session.annotation.tracks and (p.state != NONE).any()}
         for track, proposal in there.items():
             session.project.propose(track, proposal)
-        session.do(keys.accept(session.annotation, there, TRACKER))
+        if there:
+            session.do(keys.accept(session.annotation, there, TRACKER))
         self._stale |= {session.annotation.tracks[t].object for t in there}
         self._look.start()
-        self._tell_seeded(len(there))
+        self._tell_seeded(len(there), [t for t in asked if t in session.annotation.tracks and t not in there])
 
     def _progress(self, done: int, count: int) -> Callable[[float], None]:
         """Tells the share of the whole of one object's progress."""
@@ -157,11 +181,18 @@ class Tracking(QObject):
             self._session.do(join("seed", say("seed", count=count), made))
         self._stale |= {answer.request.object_id for answer in answers}
         self._look.start()
-        self._tell_seeded(count)
+        self._tell_seeded(count, [])
 
-    def _tell_seeded(self, count: int) -> None:
-        """What the status line said before, that seeding comes next, is over."""
-        if count:
+    def _tell_seeded(self, count: int, lost: list[int]) -> None:
+        """What the status line said before, that seeding comes next, is over; what was not found is named."""
+        names = ", ".join(told(keys.name_of(self._session.annotation, track)) for track in lost[:_NAMED])
+        names += ", …" if len(lost) > _NAMED else ""
+        if lost and count:
+            words = tr("{n} of {m} tracks are seeded. Nothing was found for {names}.")
+            self._session.said.emit(words.format(n=count, m=count + len(lost), names=names))
+        elif lost:
+            self._session.said.emit(tr("Nothing was found for {names}.").format(names=names))
+        elif count:
             self._session.said.emit(tr("{n} tracks are seeded.").format(n=count))
         self.seeded.emit(count)
 

@@ -1692,8 +1692,20 @@
       <translation>Es gibt keine Masken, in denen verfolgt werden kann: legen Sie in Schritt 1 eine an.</translation>
     </message>
     <message>
+      <source>{n} of {m} tracks are seeded. Nothing was found for {names}.</source>
+      <translation>{n} von {m} Spuren sind vorgeschlagen. Nichts gefunden wurde für {names}.</translation>
+    </message>
+    <message>
       <source>Solving …</source>
       <translation>Wird gelöst …</translation>
+    </message>
+    <message>
+      <source>Place points where they are seen.</source>
+      <translation>Setzen Sie Punkte dort, wo man sie sieht.</translation>
+    </message>
+    <message>
+      <source>Place points first.</source>
+      <translation>Setzen Sie zuerst Punkte.</translation>
     </message>
     <message>
       <source>Place this point first.</source>
@@ -1708,16 +1720,20 @@
       <translation>{n} Spuren werden vorgeschlagen …</translation>
     </message>
     <message>
-      <source>Place points first.</source>
-      <translation>Setzen Sie zuerst Punkte.</translation>
-    </message>
-    <message>
       <source>Seeding by {name} …</source>
       <translation>{name} setzt Spuren …</translation>
     </message>
     <message>
       <source>The object is not seen in both frames; the point stays where it is.</source>
       <translation>Das Objekt ist nicht in beiden Bildern zu sehen; der Punkt bleibt, wo er ist.</translation>
+    </message>
+    <message>
+      <source>Seeding was cancelled; nothing was changed.</source>
+      <translation>Das Vorschlagen wurde abgebrochen; nichts wurde geändert.</translation>
+    </message>
+    <message>
+      <source>Nothing was found for {names}.</source>
+      <translation>Nichts gefunden wurde für {names}.</translation>
     </message>
     <message>
       <source>{n} tracks are seeded.</source>
@@ -6690,6 +6706,18 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>geben Sie Rasterpixel des Clips</translation>
     </message>
     <message>
+      <source>has no object {unknown} to carry points</source>
+      <translation>hat kein Objekt {unknown}, das Punkte tragen könnte</translation>
+    </message>
+    <message>
+      <source>optimise it with that object's masks</source>
+      <translation>optimieren Sie sie mit den Masken dieses Objekts</translation>
+    </message>
+    <message>
+      <source>was cancelled</source>
+      <translation>wurde abgebrochen</translation>
+    </message>
+    <message>
       <source>there is no tracker '{name}'</source>
       <translation>es gibt keinen Verfolger „{name}“</translation>
     </message>
@@ -6702,8 +6730,8 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>schreiben Sie {name}:PFAD</translation>
     </message>
     <message>
-      <source>a query asks at frame {value}, the clip has 0 to {frames}</source>
-      <translation>eine Anfrage fragt bei Bild {value}, der Clip hat 0 bis {frames}</translation>
+      <source>a query asks at frame {frames}, the clip has 0 to {frames_2}</source>
+      <translation>eine Anfrage gilt Bild {frames}, der Clip hat 0 bis {frames_2}</translation>
     </message>
     <message>
       <source>has {scene} frames, the clip {clip}</source>
@@ -6714,16 +6742,28 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>optimieren Sie erst diesen Clip</translation>
     </message>
     <message>
+      <source>has {width} x {height} pixels, the clip {value} x {value_2}</source>
+      <translation>hat {width} x {height} Pixel, der Clip {value} x {value_2}</translation>
+    </message>
+    <message>
+      <source>is a scene of another clip: their pictures are alike by {alike:.2f} only</source>
+      <translation>ist die Szene eines anderen Clips: die Bilder ähneln sich nur zu {alike:.2f}</translation>
+    </message>
+    <message>
       <source>has {shape} frames, the clip {clip}</source>
       <translation>hat {shape} Bilder, der Clip {clip}</translation>
     </message>
     <message>
-      <source>has no object {object_id} to track</source>
-      <translation>hat kein Objekt {object_id} zum Verfolgen</translation>
+      <source>has visible points up to {reach:.0f}, {reach_2:.0f}, the clip has {size} x {size_2} pixels</source>
+      <translation>hat sichtbare Punkte bis {reach:.0f}, {reach_2:.0f}, der Clip hat {size} x {size_2} Pixel</translation>
     </message>
     <message>
-      <source>was cancelled</source>
-      <translation>wurde abgebrochen</translation>
+      <source>store the size its pixels belong to: size = (width, height)</source>
+      <translation>speichern Sie die Größe, zu der die Pixel gehören: size = (Breite, Höhe)</translation>
+    </message>
+    <message>
+      <source>has no object {object_id} to track</source>
+      <translation>hat kein Objekt {object_id} zum Verfolgen</translation>
     </message>
     <message>
       <source>{frames} frames of {size} are compared with {frames_2} of {size_2}</source>

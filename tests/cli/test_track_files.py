@@ -58,6 +58,21 @@ def test_seeding_tells_whose_each_point_is_and_follows_it(folder: Path, capsys: 
                  str(folder / "t.npz")]) == 2  # fmt: skip
 
 
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [({"object": [1]}, "object is (1,)"), ({"object": [1.5, 2.0]}, "float64"), ({"t": [0, 4]}, "frame 4"),
+     ({"t": [0, 9], "object": [1, 1]}, "frame 9"), ({"xy": [[5.0, 5.0], [-5.0, 20.0]]}, "outside the 96 x 54")],
+)  # fmt: skip
+def test_points_that_cannot_be_seeded_are_said_and_nothing_is_written(
+    folder: Path, capsys: pytest.CaptureFixture[str], change: dict, words: str
+) -> None:
+    np.savez(folder / "p.npz", **({"t": [0, 1], "xy": [[5.0, 5.0], [9.0, 9.0]]} | change))
+    asked = ["--points", str(folder / "p.npz"), "-o", str(folder / "bad.npz")]
+    assert main(["seed", str(folder / "clip"), *asked]) == 2
+    assert words in capsys.readouterr().err
+    assert not (folder / "bad.npz").exists()
+
+
 @pytest.mark.parametrize("name", ["tapvid", "cotracker", "sleap", "deeplabcut", "cvat", "coco", "tracks-hdf5"])
 def test_what_is_exported_is_imported(folder: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
     file, back = str(folder / "x"), str(folder / "back.npz")

@@ -3,6 +3,7 @@ weights only, faults in one sentence. Not covered: CoTracker itself."""
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,8 @@ import pytest
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
+from genmojo_core.store.npz import read_arrays, write_arrays
+from genmojo_core.trackers import cotracker_process
 from genmojo_core.trackers.cotracker import CoTrackerSeeder, Limits, in_windows
 from genmojo_core.trackers.seeding import Queries, make
 from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE
@@ -86,6 +89,77 @@ def test_long_clips_go_in_windows_that_continue_one_another(checkout: tuple[Path
         assert np.allclose(xy[:, 0], np.array([5.0, 6.0]) + (np.arange(50)[:, None] - start) * 3.0)
         assert seen.all()
     assert max(lengths) == 20
+
+
+def test_queries_of_different_times_each_go_through_all_windows() -> None:
+    """A tracker that is exact: a point is where its query was plus 3 px a frame, however late the query is."""
+    frames, batches = np.zeros((160, 4, 4, 3), np.uint8), []
+
+    def run(part: np.ndarray, asked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        batches.append(len(asked))
+        t = np.arange(len(part))[:, None, None]
+        return asked[None, :, 1:] + (t - asked[None, :, :1]) * 3.0, np.ones((len(part), len(asked)), bool)
+
+    start = np.array([0, 100, 60, 159])
+    queries = np.stack([start, 5.0 + start, 6.0 + np.zeros(4)], axis=1)
+    shares: list[float] = []
+    xy, seen = in_windows(frames, queries, 64, run, shares.append)
+    expected = queries[None, :, 1:] + (np.arange(160)[:, None, None] - start[None, :, None]) * 3.0
+    assert np.abs(xy - expected).max() < 1e-3 and seen.all()
+    assert len(batches) <= 6 and shares == sorted(shares) and shares[-1] == 1.0
+
+
+SECOND = """
+import torch
+
+class CoTrackerPredictor(torch.nn.Module):  # as in the source of CoTracker 2
+
+    def __init__(self, checkpoint="./checkpoints/cotracker2.pth", window_len=8):
+        super().__init__()
+        model = torch.nn.Module()
+        model.time_emb = torch.nn.Parameter(torch.zeros(1, window_len))
+        model.load_state_dict(torch.load(checkpoint))
+
+    def forward(self, video, queries=None, segm_mask=None, grid_size=0, grid_query_frame=0, backward_tracking=False):
+        T = video.shape[1]
+        return queries[:, None, :, 1:].expand(1, T, -1, 2), torch.ones(1, T, queries.shape[1], dtype=torch.bool)
+"""
+THIRD = """
+from cotracker.second import CoTrackerPredictor as Second
+
+class CoTrackerPredictor(Second):  # as in the source of CoTracker 3
+
+    def __init__(self, checkpoint="./checkpoints/scaled_offline.pth", offline=True, v2=False, window_len=60):
+        if not v2 and window_len != (60 if offline else 16):
+            raise ValueError("no model of that kind")
+        super().__init__(checkpoint, window_len)
+"""
+
+
+@pytest.mark.parametrize(
+    ("source", "weights", "window"),
+    [("2", "cotracker2", 8), ("2", "cotracker2v1", 16), ("3", "cotracker2", 8), ("3", "scaled_online", 16),
+     ("3", "scaled_offline", 60), ("3", "mine", 8)],
+)  # fmt: skip
+def test_every_generation_of_source_and_weights(tmp_path: Path, source: str, weights: str, window: int) -> None:
+    torch = pytest.importorskip("torch")
+    package = tmp_path / "checkout" / "cotracker"
+    package.mkdir(parents=True)
+    (package / "__init__.py").write_text("")
+    (package / "second.py").write_text(SECOND)
+    (package / "predictor.py").write_text(SECOND if source == "2" else THIRD)
+    torch.save({"time_emb": torch.zeros(1, window)}, tmp_path / f"{weights}.pth")
+    queries = np.array([[0.0, 5.0, 6.0]], np.float32)
+    write_arrays(tmp_path / "asked.npz", {"video": np.zeros((3, 4, 6, 3), np.uint8), "queries": queries})
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("sys.path", list(sys.path))
+        for name in [m for m in sys.modules if m.split(".")[0] == "cotracker"]:
+            patch.delitem(sys.modules, name)
+        asked, answer = str(tmp_path / "asked.npz"), str(tmp_path / "answer.npz")
+        assert cotracker_process.main([asked, answer, str(package.parent), f"{tmp_path}/{weights}.pth", "", "0"]) == 0
+        for name in [m for m in sys.modules if m.split(".")[0] == "cotracker"]:
+            del sys.modules[name]
+    assert (read_arrays(tmp_path / "answer.npz")["tracks"] == queries[0, 1:]).all()
 
 
 def test_a_checkpoint_that_would_run_code_is_refused(checkout: tuple[Path, Path]) -> None:

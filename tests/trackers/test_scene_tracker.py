@@ -151,3 +151,24 @@ def test_bad_queries():
             track(scene, np.array(t, int), np.array(xy, float))
     with pytest.raises(GenmojoError, match="no Gaussians"):
         track(replace(scene, xyz=scene.xyz[:0]), np.array([0]), np.array([[1.0, 1.0]]))
+
+
+def test_a_query_goes_with_its_own_object_behind_another():
+    """Where disc 2 is behind disc 1, a place asked for disc 2 follows disc 2; without an owner what shows there."""
+    scene = small_scene(frames=24, size=(192, 144), per_object=600, shift=0.13)
+    back, front = disc_path(scene, 2, np.zeros(3)), disc_path(scene, 1, np.zeros(3))
+    t = int(np.argmin(np.linalg.norm(front - back, axis=1)))
+    assert np.linalg.norm(front - back, axis=1)[t] < 12
+    asked = np.full(2, t), back[[t, t]]
+    found = track(scene, *asked, owner=np.array([2, 0]))
+    assert found.object.tolist() == [2, 1]
+    assert np.linalg.norm(found.xy[0] - back, axis=1).max() < 1.0
+    with pytest.raises(GenmojoError, match="no object 7"):
+        track(scene, *asked, owner=np.array([7, 0]))
+
+
+def test_tracking_stops_when_it_is_told_to():
+    scene, shares = small_scene(frames=6), []
+    with pytest.raises(GenmojoError, match="cancelled"):
+        track(scene, np.array([0]), np.array([[30.0, 20.0]]), shares.append, cancelled=lambda: len(shares) == 2)
+    assert len(shares) == 2

@@ -68,6 +68,33 @@ def test_every_edit_undoes_itself_exactly(seed: int) -> None:
         assert annotation.digest() == digest
 
 
+@settings(max_examples=15, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_a_tracker_that_knows_nothing_takes_nothing_away(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    annotation = annotations.started(16, 1, 2)
+    for _ in range(12):
+        annotations.random_edit(annotation, rng).do(annotation)
+    for track in [i.id for i in annotation.tracks.values()]:
+        before = annotation.track(track).copy()
+        state = (rng.uniform(size=16) < 0.5).astype(np.uint8)
+        made = Proposal("test", rng.uniform(0, 999, (16, 2)).astype(np.float32), state, np.ones(16, np.float32))
+        keys.accept(annotation, {track: made}, TRACKER).do(annotation)
+        for old, new in zip(before.arrays(), annotation.track(track).arrays(), strict=True):
+            assert np.array_equal(old[state == NONE], new[state == NONE])
+
+
+def test_a_proposal_passes_through_every_place_a_person_is_sure_of() -> None:
+    annotation = annotations.started()
+    for t, x in ((0, 100.0), (10, 130.0), (20, 90.0)):
+        keys.set_key(annotation, 1, t, (x, 200.0)).do(annotation)
+    keys.accept(annotation, {1: proposal()}, TRACKER).do(annotation)
+    xy = annotation.track(1).xy
+    assert xy[[0, 10, 20], 0].tolist() == [100.0, 130.0, 90.0]
+    assert xy[[5, 9, 11, 15, 23], 0].tolist() == pytest.approx([115.0, 127.0, 126.0, 110.0, 90.0])
+    assert (xy[:, 1] == 200.0).all()
+
+
 def test_a_key_moves_its_neighbours_at_once_but_no_other_key() -> None:
     annotation = annotations.started()
     keys.accept(annotation, {1: proposal()}, TRACKER).do(annotation)
