@@ -6,10 +6,8 @@ its key was changed again, or after its step was undone, changes nothing.
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -26,12 +24,12 @@ from genmojo_core.tracks.edits import join
 from genmojo_core.tracks.model import NONE
 from genmojo_core.tracks.suspicion import Calibration, Evidence, Spot, Suspicion
 from genmojo_studio import notify
+from genmojo_studio.annotate.seed_task import SeedTask, seeded_words
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.background import Tasks
-from genmojo_studio.translate import fault, told, tr
+from genmojo_studio.translate import fault, tr
 
 SHOWN = 0.15  # score from which a spot stands in the queue
-_NAMED = 4  # tracks named in a sentence at most
 _PATIENCE = 350  # ms without an edit after which suspicion is ranked anew
 
 
@@ -69,7 +67,7 @@ class Tracking(QObject):
         self._closed = False
         self.pending = 0  # solutions asked for and not there yet
         self._following: list[int] = []  # directions to follow the active point in, one after the other
-        self._cancelled = threading.Event()
+        self._seeding = SeedTask(self.tasks, self._gave_up_seeding)
         self._look = QTimer(self, singleShot=True, interval=_PATIENCE)
         self._look.timeout.connect(self._judge)
         session.edited.connect(self._edited)
@@ -78,7 +76,7 @@ class Tracking(QObject):
     def close(self) -> None:
         """Drop what is going on."""
         self._closed = True
-        self._cancelled.set()
+        self._seeding.cancel()
         self._look.stop()
         self.tasks.close()
 
@@ -96,15 +94,14 @@ class Tracking(QObject):
         requests = [r for r in requests if r.tracks]
         if clip is None or not requests:
             return False
-        cancelled = self._begin()
         self.busy_changed.emit(tr("Seeding {n} tracks …").format(n=sum(len(r.tracks) for r in requests)))
 
-        def work() -> list[SolveAnswer]:
+        def work(cancelled: Callable[[], bool]) -> list[SolveAnswer]:
             solver = self._solver_for(clip)
-            return [solver.answer(r, self._progress(n, len(requests)), cancelled.is_set)
+            return [solver.answer(r, self._progress(n, len(requests)), cancelled)
                     for n, r in enumerate(requests)]  # fmt: skip
 
-        self._run(work, self._seeded, cancelled)
+        self._seeding.run(work, self._seeded, self._failed)
         return True
 
     def seed_by(self, seeder: Seeder, objects: list[int]) -> bool:
@@ -116,34 +113,20 @@ class Tracking(QObject):
             lacking = tr("Place points where they are seen.") if asked else tr("Place points first.")
             session.said.emit(tr("The clip is still being read.") if clip is None else lacking)
             return False
-        cancelled = self._begin()
         self.busy_changed.emit(tr("Seeding by {name} …").format(name=seeder.name))
 
-        def work() -> dict[int, Proposal]:
-            found = merged(seeder.seed(clip, queries, self._progress(0, 1), cancelled.is_set), queries)
+        def work(cancelled: Callable[[], bool]) -> dict[int, Proposal]:
+            found = merged(seeder.seed(clip, queries, self._progress(0, 1), cancelled), queries)
             return proposals(found, ids, seeder.name)
 
-        self._run(work, lambda found: self._proposed(found, asked), cancelled)
+        self._seeding.run(work, lambda found: self._proposed(found, asked), self._failed)
         return True
 
-    def _begin(self) -> threading.Event:
-        """What cancels the seeding that begins now; one that still runs is cancelled."""
-        self._cancelled.set()
-        self._cancelled = threading.Event()
-        return self._cancelled
-
-    def _run(self, work: Callable[[], Any], done: Callable[[Any], None], cancelled: threading.Event) -> None:
-        """Seed on the thread. Once it was cancelled its result changes nothing, however far it was."""
-
-        def ended(then: Callable[[], None]) -> None:
-            if not cancelled.is_set():
-                then()
-            elif not self._closed:
-                self.busy_changed.emit("")
-                self._session.said.emit(tr("Seeding was cancelled; nothing was changed."))
-                self.seeded.emit(0)
-
-        self.tasks.run(work, lambda found: ended(lambda: done(found)), lambda error: ended(lambda: self._failed(error)))
+    def _gave_up_seeding(self) -> None:
+        if not self._closed:
+            self.busy_changed.emit("")
+            self._session.said.emit(tr("Seeding was cancelled; nothing was changed."))
+            self.seeded.emit(0)
 
     def _proposed(self, found: dict[int, Proposal], asked: list[int]) -> None:
         """Keep proposals beside the tracks, and take them wherever no person said otherwise."""
@@ -166,7 +149,7 @@ class Tracking(QObject):
 
     def cancel(self) -> None:
         """End a seeding that runs; nothing is changed."""
-        self._cancelled.set()
+        self._seeding.cancel()
 
     def _seeded(self, answers: list[SolveAnswer]) -> None:
         """All objects as one step."""
@@ -185,15 +168,9 @@ class Tracking(QObject):
 
     def _tell_seeded(self, count: int, lost: list[int]) -> None:
         """What the status line said before, that seeding comes next, is over; what was not found is named."""
-        names = ", ".join(told(keys.name_of(self._session.annotation, track)) for track in lost[:_NAMED])
-        names += ", …" if len(lost) > _NAMED else ""
-        if lost and count:
-            words = tr("{n} of {m} tracks are seeded. Nothing was found for {names}.")
-            self._session.said.emit(words.format(n=count, m=count + len(lost), names=names))
-        elif lost:
-            self._session.said.emit(tr("Nothing was found for {names}.").format(names=names))
-        elif count:
-            self._session.said.emit(tr("{n} tracks are seeded.").format(n=count))
+        words = seeded_words(self._session.annotation, count, lost)
+        if words:
+            self._session.said.emit(words)
         self.seeded.emit(count)
 
     def after_key(self, track: int, frame: int, step: int | None) -> None:

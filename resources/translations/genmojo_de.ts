@@ -1176,6 +1176,18 @@
       <translation>{n} min optimieren, fertig in etwa {m:.1f} min</translation>
     </message>
     <message>
+      <source>{n} of {m} tracks are seeded. Nothing was found for {names}.</source>
+      <translation>{n} von {m} Spuren sind vorgeschlagen. Nichts gefunden wurde für {names}.</translation>
+    </message>
+    <message>
+      <source>Nothing was found for {names}.</source>
+      <translation>Nichts gefunden wurde für {names}.</translation>
+    </message>
+    <message>
+      <source>{n} tracks are seeded.</source>
+      <translation>{n} Spuren haben nun einen Vorschlag.</translation>
+    </message>
+    <message>
       <source>Nothing more to take back or do again.</source>
       <translation>Nichts mehr zurückzunehmen oder zu wiederholen.</translation>
     </message>
@@ -1692,10 +1704,6 @@
       <translation>Es gibt keine Masken, in denen verfolgt werden kann: legen Sie in Schritt 1 eine an.</translation>
     </message>
     <message>
-      <source>{n} of {m} tracks are seeded. Nothing was found for {names}.</source>
-      <translation>{n} von {m} Spuren sind vorgeschlagen. Nichts gefunden wurde für {names}.</translation>
-    </message>
-    <message>
       <source>Solving …</source>
       <translation>Wird gelöst …</translation>
     </message>
@@ -1706,6 +1714,10 @@
     <message>
       <source>Place points first.</source>
       <translation>Setzen Sie zuerst Punkte.</translation>
+    </message>
+    <message>
+      <source>Seeding was cancelled; nothing was changed.</source>
+      <translation>Das Vorschlagen wurde abgebrochen; nichts wurde geändert.</translation>
     </message>
     <message>
       <source>Place this point first.</source>
@@ -1726,18 +1738,6 @@
     <message>
       <source>The object is not seen in both frames; the point stays where it is.</source>
       <translation>Das Objekt ist nicht in beiden Bildern zu sehen; der Punkt bleibt, wo er ist.</translation>
-    </message>
-    <message>
-      <source>Seeding was cancelled; nothing was changed.</source>
-      <translation>Das Vorschlagen wurde abgebrochen; nichts wurde geändert.</translation>
-    </message>
-    <message>
-      <source>Nothing was found for {names}.</source>
-      <translation>Nichts gefunden wurde für {names}.</translation>
-    </message>
-    <message>
-      <source>{n} tracks are seeded.</source>
-      <translation>{n} Spuren haben nun einen Vorschlag.</translation>
     </message>
     <message>
       <source>Choose an object first (step 1).</source>
