@@ -34,6 +34,7 @@ TRUST = MappingProxyType({
 SIGNALS = MappingProxyType({name: say(f"doubt_{name}") for name in TRUST})  # in words
 SUSPICIOUS = 0.5  # score from which a frame is worth a visit of its own
 RUN = 4  # frames that one visit shows where nothing is suspicious, and twice as many where something is
+_LEAST_TRUST = 0.3  # share of its first trust that a signal keeps, however often it was wrong
 _LOOKED_AT = 0.25  # share of the suspicion that is left where a person accepted the place
 
 
@@ -54,10 +55,11 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Suspicion:
-    """Scores (T,) 0..1 of one track and the parts (9, T) they come from, in the order of SIGNALS."""
+    """Scores (T,) 0..1 of one track, the parts (9, T) they come from in the order of SIGNALS, trust (9,) in each."""
 
     score: np.ndarray
     parts: np.ndarray
+    trust: np.ndarray
 
     def reasons(self, t: int, count: int = 2) -> list[str]:
         """The strongest reasons at frame t in words, strongest first."""
@@ -79,24 +81,43 @@ class Spot:
 
 @dataclass
 class Calibration:
-    """How much each signal is trusted, learnt from outcomes; starts at TRUST as if seen `prior` times."""
+    """How much each signal is trusted, learnt from outcomes; starts at TRUST as if seen `prior` times.
+
+    One outcome per place: what spoke against it (9,) when a person first judged it, and whether it was ever corrected.
+    """
 
     prior: float = 20.0
-    hits: dict[str, float] = field(default_factory=dict)
-    seen: dict[str, float] = field(default_factory=dict)
+    outcomes: dict[tuple[int, int], tuple[np.ndarray, bool]] = field(default_factory=dict)  # (track, frame) ->
 
-    def trust(self) -> np.ndarray:  # (9,)
-        """Trust per signal, in the order of SIGNALS."""
-        return np.array([(TRUST[n] * self.prior + self.hits.get(n, 0.0)) / (self.prior + self.seen.get(n, 0.0))
-                         for n in SIGNALS])  # fmt: skip
+    def trust(self, annotation: Annotation | None = None) -> np.ndarray:  # (9,)
+        """Trust per signal, in the order of SIGNALS, never below a share of TRUST.
 
-    def learn(self, suspicion: Suspicion, t: int, corrected: bool) -> None:
-        """A person looked at frame t and corrected it or accepted it."""
-        trust = self.trust()
-        for i, name in enumerate(SIGNALS):
-            fired = float(suspicion.parts[i, t] / max(trust[i], 1e-6))
-            self.seen[name] = self.seen.get(name, 0.0) + fired
-            self.hits[name] = self.hits.get(name, 0.0) + fired * corrected
+        With `annotation` only from places that stand as a person left them: what was undone teaches nothing.
+        """
+        first = np.array(list(TRUST.values()))
+        told = [o for cell, o in self.outcomes.items() if annotation is None or _stands(annotation, *cell)]
+        fired = np.array([o[0] for o in told]).reshape(-1, len(first))
+        right = np.array([o[1] for o in told], bool)
+        learnt = (first * self.prior + fired[right].sum(axis=0)) / (self.prior + fired.sum(axis=0))
+        return np.asarray(np.maximum(learnt, _LEAST_TRUST * first))
+
+    def learn(self, track: int, t: int, suspicion: Suspicion, corrected: bool) -> None:
+        """A person looked at frame t of a track and corrected it or accepted it; again says nothing new."""
+        known = self.outcomes.get((track, t))
+        if known is not None:
+            self.outcomes[track, t] = (known[0], known[1] or corrected)
+        else:
+            self.outcomes[track, t] = (np.round(suspicion.parts[:, t] / suspicion.trust, 2), corrected)
+
+    def rows(self) -> list[list[object]]:
+        """What was learnt, as plain data: track, frame, whether it was corrected, what spoke against it."""
+        return [[*cell, corrected, fired.tolist()] for cell, (fired, corrected) in self.outcomes.items()]
+
+    def put_rows(self, rows: list[tuple[int, int, bool, list[float]]]) -> None:
+        """Learnt before; outcomes of other signals than today's are left out."""
+        for track, t, corrected, fired in rows:
+            if len(fired) == len(TRUST):
+                self.outcomes[int(track), int(t)] = (np.array(fired, float), bool(corrected))
 
 
 def assess(
@@ -111,7 +132,7 @@ def assess(
     Args:
         annotation: the tracks. scene: masks of the clip. evidence: per track. calibration: learnt trust.
     """
-    trust = (calibration or Calibration()).trust()
+    trust = (calibration or Calibration()).trust(annotation)
     found = {}
     for track in [i.id for i in annotation.active()] if tracks is None else tracks:
         cells = annotation.track(track)
@@ -119,7 +140,7 @@ def assess(
                   if i.id != track]  # fmt: skip
         parts = _parts(annotation, track, cells, others, (scene, (evidence or {}).get(track, Evidence())))
         parts *= trust[:, None]
-        found[track] = _judged(cells, parts)
+        found[track] = _judged(cells, parts, trust)
     return found
 
 
@@ -158,7 +179,7 @@ def _parts(
     return np.clip(np.nan_to_num(parts), 0.0, 1.0)
 
 
-def _judged(cells: Cells, parts: np.ndarray) -> Suspicion:
+def _judged(cells: Cells, parts: np.ndarray, trust: np.ndarray) -> Suspicion:
     """Noisy-OR; keys keep only what masks say against them, accepted frames a quarter, painted states half of that."""
     is_key, accepted = (cells.flags & KEY) > 0, (cells.flags & CONFIRMED) > 0
     on_mask = list(SIGNALS).index("mask")
@@ -167,4 +188,9 @@ def _judged(cells: Cells, parts: np.ndarray) -> Suspicion:
     kept[on_mask, is_key & (cells.state == VISIBLE)] = 1.0
     kept[on_mask, is_key & (cells.state == OCCLUDED)] = _LOOKED_AT
     parts = parts * kept * (cells.state != NONE)
-    return Suspicion(1.0 - np.prod(1.0 - parts, axis=0), parts)
+    return Suspicion(1.0 - np.prod(1.0 - parts, axis=0), parts, trust)
+
+
+def _stands(annotation: Annotation, track: int, t: int) -> bool:
+    """Whether a person's word on a place is still there."""
+    return track in annotation.tracks and bool(annotation.track(track).flags[t] & (KEY | CONFIRMED))

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from genmojo_core.tracks import edit_tracks
-from genmojo_core.tracks.suspicion import Spot
 from genmojo_studio.annotate import steps, verbs
 from genmojo_studio.annotate.accepting import Accepting
 from genmojo_studio.annotate.actions import KEYED
@@ -58,7 +57,6 @@ def _connect(w: AnnotateWorkspace) -> None:
     masks.changed.connect(w.screen_link.presenter.forget_masks)
     masks.changed.connect(w.screen_link.refresh)
     work.busy_changed.connect(w.say)
-    work.spots_ready.connect(w.refine.set_spots)
     work.spots_ready.connect(w.play.sheet.refresh)
     masks.cutting.connect(w.objects.show_cutting)
     masks.sketched.connect(w.objects.show_sketched)
@@ -89,8 +87,9 @@ class Hands:
         w.canvas.cycled.connect(self.cycle)
         w.play.sheet.painted.connect(self.painted)
         w.play.graphs.moved.connect(self.knot_moved)
-        w.refine.spot_chosen.connect(self.show_spot)
-        w.work.spots_ready.connect(self.going.set_spots)
+        w.refine.spot_chosen.connect(self.going.show_spot)
+        w.work.spots_ready.connect(self.going.queue.set_spots)
+        self.going.queue.changed.connect(lambda: w.refine.show_queue(self.going.queue))
         w.points.seed_wanted.connect(self.dialogs.seed)
         w.review.merge_wanted.connect(self.dialogs.merge)
         w.review.log_wanted.connect(self.dialogs.log)
@@ -232,11 +231,6 @@ class Hands:
     def cycle(self, step: int) -> None:
         """The next or previous point over all objects."""
         self.going.cycle(step)
-
-    def show_spot(self, spot: Spot) -> None:
-        """Go to a suspicious spot."""
-        self._s.select_track(spot.track)
-        self._s.go(spot.frame, jump=True)
 
     # ---- keys that are held
 

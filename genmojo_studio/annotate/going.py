@@ -9,6 +9,7 @@ import numpy as np
 from genmojo_core.tracks.suspicion import Spot
 from genmojo_studio.annotate.play_panel import Player
 from genmojo_studio.annotate.session import Session
+from genmojo_studio.annotate.spot_queue import SpotQueue
 from genmojo_studio.translate import told, tr
 
 
@@ -17,8 +18,12 @@ class Going:
 
     def __init__(self, session: Session, player: Player) -> None:
         self._s, self._player = session, player
-        self.spots: list[Spot] = []
-        self._seen: list[Spot] = []
+        self.queue = SpotQueue(session)
+
+    @property
+    def spots(self) -> list[Spot]:
+        """Suspicious spots, worst first."""
+        return self.queue.spots
 
     def table(self) -> dict[str, Callable[[], object]]:
         """Verbs by the names of their actions, without "annotate."."""
@@ -73,26 +78,32 @@ class Going:
         self._s.go((first + last) // 2, jump=True)
 
     def worst(self) -> None:
-        """The worst spot that was not shown yet; after the last it begins again."""
-        active = {i.id for i in self._s.annotation.active()}
-        left = [spot for spot in self.spots if spot not in self._seen and spot.track in active]
-        if not left and self.spots:
-            self._seen, left = [], self.spots
-        if not left:
-            self._s.said.emit(tr("Nothing suspicious is left."))
+        """The worst spot that nobody looked at since it changed; after the last it says so and begins again."""
+        spot, again = self.queue.next(), False
+        if spot is None and self.spots:
+            self.queue.again()
+            spot, again = self.queue.next(), True
+        if spot is not None:
+            self._show(spot, tr("All were looked at; again from the worst: ") if again else "")
             return
-        self._seen.append(left[0])
-        self._show(left[0])
+        clip = self._s.clip
+        if clip is None:
+            self._s.said.emit(tr("The clip is still being read."))
+        elif clip.masks is None:
+            self._s.said.emit(tr("Nothing suspicious is left, as far as motion tells: there are no masks."))
+        else:
+            self._s.said.emit(tr("Nothing suspicious is left."))
 
     def worst_back(self) -> None:
         """The spot shown before."""
-        if len(self._seen) > 1:
-            self._seen.pop()
-            self._show(self._seen[-1])
+        spot = self.queue.back()
+        if spot is not None:
+            self._show(spot)
 
-    def set_spots(self, spots: list[Spot]) -> None:
-        """The queue, worst first."""
-        self.spots = spots
+    def show_spot(self, spot: Spot) -> None:
+        """A spot chosen in the list."""
+        self.queue.show(spot)
+        self._show(spot)
 
     def cycle(self, step: int) -> None:
         """The next or previous point over all objects."""
@@ -113,10 +124,10 @@ class Going:
                     return True
         return False
 
-    def _show(self, spot: Spot) -> None:
-        self._s.select_track(spot.track)
+    def _show(self, spot: Spot, before: str = "") -> None:
         self._s.go(spot.frame, jump=True)
-        self._s.said.emit(", ".join(map(told, spot.reasons[:2])))
+        self._s.select_track(spot.track)
+        self._s.said.emit(before + ", ".join(map(told, spot.reasons[:2])))
 
 
 def worst_runs(doubt: np.ndarray, least: float = 0.3) -> list[tuple[int, int, int]]:

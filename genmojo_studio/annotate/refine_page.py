@@ -21,8 +21,8 @@ from genmojo_core.tracks.edit_tracks import update_track
 from genmojo_core.tracks.suspicion import Spot
 from genmojo_studio.annotate.button_panel import grid_of
 from genmojo_studio.annotate.session import Session
+from genmojo_studio.annotate.spot_queue import SpotQueue, spot_at
 from genmojo_studio.annotate.track_tree import TrackTree, state_name
-from genmojo_studio.annotate.tracking import spot_at
 from genmojo_studio.translate import decimal, told, tr
 
 MOST_SHOWN = 200
@@ -59,14 +59,34 @@ class RefinePage(QWidget):
         session.selected.connect(self._other_note)
         session.shown.connect(self._later.start)
         session.frame_changed.connect(self._frame_changed)
-        self.set_spots([])
+        self.show_queue(SpotQueue(session))
 
-    def set_spots(self, spots: list[Spot]) -> None:
-        """Show the queue."""
-        self.spots = spots
-        self.title.setText(tr("Queue: {n} left (N goes to the next)").format(n=len(spots)))
+    def show_queue(self, queue: SpotQueue) -> None:
+        """List the queue: the one on show selected, those looked at pale."""
+        left, row = queue.left(), -1
+        same = self.spots == queue.spots
+        self.spots = queue.spots
+        title = tr("Queue: {n} of {m} left (N goes to the next)").format(n=len(left), m=len(self.spots))
+        if len(self.spots) > MOST_SHOWN:
+            title += tr("; the worst {n} are listed").format(n=MOST_SHOWN)
+        self.title.setText(title)
+        self.title.setToolTip(title)
+        if not same:
+            self._list(self.spots)
+        waiting = {id(s) for s in left}
+        pale, full = self.palette().placeholderText(), self.palette().text()
+        for n in range(self.queue.count()):
+            item = self.queue.item(n)
+            spot = self.spots[item.data(Qt.ItemDataRole.UserRole)]
+            item.setForeground(full if id(spot) in waiting else pale)
+            if spot == queue.current:
+                row = n
+        self.queue.setCurrentRow(row)
+        self.refresh()
+
+    def _list(self, spots: list[Spot]) -> None:
         self.queue.clear()
-        for spot in spots[:MOST_SHOWN]:
+        for place, spot in enumerate(spots[:MOST_SHOWN]):
             info = self._session.annotation.tracks.get(spot.track)
             if info is None:
                 continue
@@ -74,9 +94,8 @@ class RefinePage(QWidget):
             why = ", ".join(map(told, spot.reasons[:2]))
             text = f"{self._session.title(info.object, info.number)}   {where}   {why}"
             item = QListWidgetItem(text, self.queue)
-            item.setData(Qt.ItemDataRole.UserRole, spot)
+            item.setData(Qt.ItemDataRole.UserRole, place)
             item.setToolTip("\n".join(map(told, spot.reasons)))
-        self.refresh()
 
     def refresh(self) -> None:
         """The active point in this frame."""
@@ -130,7 +149,7 @@ class RefinePage(QWidget):
         self._later.start()
 
     def _activated(self, item: QListWidgetItem) -> None:
-        self.spot_chosen.emit(item.data(Qt.ItemDataRole.UserRole))
+        self.spot_chosen.emit(self.spots[item.data(Qt.ItemDataRole.UserRole)])
 
     def _other_note(self) -> None:
         """Another track is active: what was typed is kept, and its own note is shown."""

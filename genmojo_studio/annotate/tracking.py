@@ -22,8 +22,9 @@ from genmojo_core.tracks import keys, suspicion
 from genmojo_core.tracks.annotation import BY_TRACKER, KEY, TRACKER, Annotation, Cells, Proposal
 from genmojo_core.tracks.edits import join
 from genmojo_core.tracks.model import NONE
-from genmojo_core.tracks.suspicion import Calibration, Evidence, Spot, Suspicion
+from genmojo_core.tracks.suspicion import Evidence, Suspicion
 from genmojo_studio import notify
+from genmojo_studio.annotate.learnt import Learnt
 from genmojo_studio.annotate.seed_task import SeedTask, seeded_words
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.background import Tasks
@@ -57,7 +58,7 @@ class Tracking(QObject):
         super().__init__(parent)
         self._session = session
         self.tasks = Tasks()
-        self.calibration = Calibration()
+        self.learnt = Learnt(session.project)
         self.suspicions: dict[int, Suspicion] = {}
         self.evidence: dict[int, Evidence] = {}
         self._solver: TrackSolver | None = None
@@ -75,6 +76,7 @@ class Tracking(QObject):
 
     def close(self) -> None:
         """Drop what is going on."""
+        self.learnt.keep()
         self._closed = True
         self._seeding.cancel()
         self._look.stop()
@@ -319,7 +321,10 @@ class Tracking(QObject):
     def _judge(self) -> None:
         """Gather evidence of changed objects on the thread, then rank; one round at a time."""
         session, clip = self._session, self._session.clip
-        if self._closed or self._gathering or clip is None or clip.masks is None:
+        if self._closed or self._gathering or clip is None:
+            return
+        if clip.masks is None:  # motion, flicker, other points and trackers tell without them
+            self._gathered({})
             return
         wanted = [o for o in self._stale if o in clip.object_ids.tolist() and self._is_seeded(o)]
         self._stale.clear()
@@ -346,9 +351,10 @@ class Tracking(QObject):
         session = self._session
         if self._closed or session.clip is None:
             return
+        self.learnt.keep()
         self.evidence |= evidence
         known = {t: e for t, e in self.evidence.items() if t in session.annotation.tracks}
-        self.suspicions = suspicion.assess(session.annotation, scene_of(session.clip), known, self.calibration)
+        self.suspicions = suspicion.assess(session.annotation, scene_of(session.clip), known, self.learnt.calibration)
         session.suspicion = {t: s.score for t, s in self.suspicions.items()}
         self.measured.emit({t: {"fb": e.gap, "ncc": e.likeness} for t, e in known.items()})
         spots = suspicion.queue(session.annotation, self.suspicions)
@@ -358,9 +364,9 @@ class Tracking(QObject):
             self._look.start()
 
     def _learn(self, track: int, frame: int, corrected: bool) -> None:
-        """A person judged a place: signals that were right count for more from now on."""
+        """A person judged a place: signals that were right count for more from now on, in this project."""
         if track in self.suspicions:
-            self.calibration.learn(self.suspicions[track], frame, corrected)
+            self.learnt.learn(track, frame, self.suspicions[track], corrected=corrected)
 
     def _failed(self, error: BaseException) -> None:
         self._gathering = False
@@ -390,8 +396,3 @@ def _within(answer: SolveAnswer, span: tuple[int, int]) -> SolveAnswer:
         inside = (frames >= span[0]) & (frames <= span[1])
         found[track] = (frames[inside], Cells(*(a[inside] for a in cells.arrays())))
     return SolveAnswer(answer.request, found)
-
-
-def spot_at(spots: list[Spot], track: int, frame: int) -> Spot | None:
-    """The spot that covers a frame of a track."""
-    return next((s for s in spots if s.track == track and s.first <= frame <= s.last), None)

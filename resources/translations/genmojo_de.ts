@@ -140,6 +140,18 @@
       <translation>In dieser Richtung gibt es keine Schlüssel mehr.</translation>
     </message>
     <message>
+      <source>The clip is still being read.</source>
+      <translation>Der Clip wird noch gelesen.</translation>
+    </message>
+    <message>
+      <source>All were looked at; again from the worst: </source>
+      <translation>Alle sind angesehen; von vorn mit der schlimmsten: </translation>
+    </message>
+    <message>
+      <source>Nothing suspicious is left, as far as motion tells: there are no masks.</source>
+      <translation>Nichts Verdächtiges mehr, soweit es die Bewegung verrät: Es gibt keine Masken.</translation>
+    </message>
+    <message>
       <source>Nothing suspicious is left.</source>
       <translation>Nichts Verdächtiges mehr.</translation>
     </message>
@@ -342,10 +354,6 @@
     <message>
       <source>The project is read only.</source>
       <translation>Das Projekt kann nur gelesen werden.</translation>
-    </message>
-    <message>
-      <source>The clip is still being read.</source>
-      <translation>Der Clip wird noch gelesen.</translation>
     </message>
     <message>
       <source>Draw something first.</source>
@@ -936,8 +944,12 @@
       <translation>Notiz zu dieser Spur</translation>
     </message>
     <message>
-      <source>Queue: {n} left (N goes to the next)</source>
-      <translation>Liste: noch {n} (N geht zur nächsten)</translation>
+      <source>Queue: {n} of {m} left (N goes to the next)</source>
+      <translation>Liste: noch {n} von {m} (N geht zur nächsten)</translation>
+    </message>
+    <message>
+      <source>; the worst {n} are listed</source>
+      <translation>; gezeigt sind die schlimmsten {n}</translation>
     </message>
     <message>
       <source>place</source>

@@ -99,15 +99,47 @@ def test_a_state_of_one_frame_is_doubtful() -> None:
     assert "state changes back and forth" in assess(annotation)[1].reasons(9)
 
 
-def test_what_people_correct_and_accept_teaches_whom_to_trust() -> None:
+JUMPS = (6, 16)
+
+
+def judged(corrected: bool) -> tuple[Annotation, Calibration]:
+    """Two jumps of one track, accepted or corrected, each as often as a person presses Enter on a last frame."""
     annotation = moving()
-    shifted(annotation, 3, 10, 10, (25.0, -12.0))
-    calibration = Calibration()
-    for _ in range(40):
-        found = assess(annotation, calibration=calibration)[3]
-        calibration.learn(found, 10, corrected=False)
-    taught = assess(annotation, calibration=calibration)[3].score[10]
-    assert taught < 0.6 * assess(annotation)[3].score[10]
+    calibration = Calibration(prior=1.0)
+    for t in JUMPS:
+        shifted(annotation, 3, t, t, (25.0, -12.0))
+    found = assess(annotation)[3]
+    for t in JUMPS:
+        keys.confirm(annotation, [3], t).do(annotation)
+        for _ in range(30):
+            calibration.learn(3, t, found, corrected)
+    return annotation, calibration
+
+
+def test_what_people_correct_and_accept_teaches_whom_to_trust() -> None:
+    motion = list(suspicion.SIGNALS).index("motion")
+    wrong, first, right = (c.trust()[motion] for c in (judged(False)[1], Calibration(), judged(True)[1]))
+    assert wrong < 0.7 * first < first < right
+
+
+def test_a_place_teaches_once_and_no_signal_is_ever_ruined() -> None:
+    _, often = judged(corrected=False)
+    assert len(often.outcomes) == len(JUMPS), "thirty Enters on a frame say no more than one"
+    often.outcomes |= {(9, t): (np.ones(9), False) for t in range(5000)}
+    np.testing.assert_allclose(often.trust(), 0.3 * Calibration().trust())
+
+
+def test_what_was_undone_teaches_nothing_and_the_rest_is_kept_as_plain_data() -> None:
+    annotation, calibration = judged(corrected=False)
+    again = Calibration(prior=1.0)
+    again.put_rows([tuple(row) for row in calibration.rows()])
+    np.testing.assert_allclose(again.trust(annotation), calibration.trust(annotation))
+    assert not np.allclose(again.trust(annotation), Calibration().trust())
+    for t in JUMPS:
+        cells = annotation.cells(3, np.array([t]))
+        cells.flags[:] = 0
+        annotation.write_cells(3, np.array([t]), cells)
+    np.testing.assert_allclose(again.trust(annotation), Calibration().trust())
 
 
 def test_the_queue_covers_every_frame_once() -> None:
