@@ -23,6 +23,7 @@ class AppState:
     Attributes (change them with `set`, never directly):
         clip: the clip that is open, or None.  clip_path: where it was read from, or None.
         masks_path: file with masks that a person corrected, which stand for the clip's, or None.
+        project_path: project of the clip's annotation, or None.
         scene_path: the scene file or run folder on show, or None.
         frame: index into the clip's frames, 0-based, always inside.  frame_count: number of frames, at least 1.
         playing: whether time runs.  speed: frames advance at `speed` times the clip's rate, > 0.
@@ -33,6 +34,7 @@ class AppState:
     clip: Clip | None
     clip_path: Path | None
     masks_path: Path | None
+    project_path: Path | None
     scene_path: Path | None
     frame: int
     frame_count: int
@@ -49,6 +51,7 @@ class AppState:
             "clip": None,
             "clip_path": None,
             "masks_path": None,
+            "project_path": None,
             "scene_path": None,
             "frame": 0,
             "frame_count": 1,
@@ -101,12 +104,17 @@ class AppState:
 
         return unsubscribe
 
-    def open_clip(self, clip: Clip, path: str | Path, masks: Path | None = None) -> None:
-        """Puts another clip on show, at its first frame, nothing selected; `masks`: where corrected ones lie."""
+    def open_clip(self, clip: Clip, path: str | Path, masks: Path | None = None, project: Path | None = None) -> None:
+        """Puts another clip on show, at its first frame, nothing selected.
+
+        Args:
+            masks: where corrected ones lie. project: of its annotation.
+        """
         self.set(
             clip=clip,
             clip_path=Path(path),
             masks_path=masks,
+            project_path=project,
             frame_count=max(len(clip), 1),
             frame=0,
             playing=False,

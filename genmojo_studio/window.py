@@ -285,12 +285,12 @@ class MainWindow(QMainWindow):
         bind("help.about", lambda: self._open_dialog(About(self)))
         self.state.subscribe(self._show_title, "clip", "clip_path", "scene_path")
 
-    def _clip_read(self, found: tuple[Clip, Path | None], path: Path, workspace: str) -> None:
-        clip, masks = found
+    def _clip_read(self, found: tuple[Clip, Path | None, Path | None], path: Path, workspace: str) -> None:
+        clip, masks, project = found
 
         def made() -> None:
             self.header.say("")
-            self.state.open_clip(clip, path, masks)
+            self.state.open_clip(clip, path, masks, project)
             QTimer.singleShot(_TURN_MS, self, lambda: self.go_to(workspace))
 
         self._assembly(workspace).start(made)
@@ -374,8 +374,8 @@ def _ask_for_opengl() -> None:
     importlib.import_module("genmojo_studio.view3d.gl_probe").probe()
 
 
-def _read_clip(path: Path, workspace: str) -> tuple[Clip, Path | None]:
-    """The clip, with the masks that a person corrected in its project and where they lie, if there are any.
+def _read_clip(path: Path, workspace: str) -> tuple[Clip, Path | None, Path | None]:
+    """The clip, with the masks that a person corrected in its project, where they lie, and the project, if any.
 
     The workspace that will show it is loaded too.
     """
@@ -385,5 +385,6 @@ def _read_clip(path: Path, workspace: str) -> tuple[Clip, Path | None]:
 
     importlib.import_module(_MODULES[workspace])
     clip = folders.read(path, short_side=opening.SHARED_SHORT_SIDE)
-    masks = project_path(path).with_suffix(hand_masks.SUFFIX)
-    return (mask_file.with_masks(clip, masks), masks) if masks.exists() else (clip, None)
+    file = project_path(path)
+    project, masks = file if file.is_file() else None, file.with_suffix(hand_masks.SUFFIX)
+    return (mask_file.with_masks(clip, masks), masks, project) if masks.exists() else (clip, None, project)

@@ -81,8 +81,8 @@ def add_clip_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--box", type=box, action="append", default=[], metavar="FRAME:X0,Y0,X1,Y1",
                         help="one object in a clip without masks; may be given several times")  # fmt: skip
     parser.add_argument("--masks", metavar="FILE.npz", help="masks corrected in genmojo-studio, instead of the clip's")
-    parser.add_argument("--tracks", metavar="NPZ", help="annotated point tracks that the scene shall follow (as "
-                        "`genmojo export PROJECT --to tracks` writes them) instead of CLIP/tracks.npz")  # fmt: skip
+    parser.add_argument("--tracks", metavar="FILE", help="annotated point tracks that the scene shall follow instead "
+                        "of CLIP/tracks.npz: an npz, or a .genmojo project (what people placed in it)")  # fmt: skip
     parser.add_argument("--effects", default="auto", metavar="auto|all|+a,-b", help="switch effects on or off by "
                         "hand; all: every effect that the clip allows")  # fmt: skip
 

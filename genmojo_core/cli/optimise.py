@@ -201,12 +201,13 @@ def _prepare(args: argparse.Namespace, config: RunConfig) -> tuple[Clip, EffectP
     from genmojo_core.effects import decide
     from genmojo_core.estimate.complete import complete
     from genmojo_core.optimise import methods
+    from genmojo_core.store import annotated_tracks
 
     overrides = {} if args.effects == "auto" else decide.parse_overrides(args.effects)
     external = models.models_of(args)
-    with progress("reading") as tell:
+    with progress("reading") as tell, annotated_tracks.as_npz(args.tracks) as tracks:
         clip = folders.read(args.clip, frames=args.frames, short_side=config.short_side, ignore=args.ignore,
-                            pixel_aspect=args.pixel_aspect, tracks=args.tracks)  # fmt: skip
+                            pixel_aspect=args.pixel_aspect, tracks=tracks)  # fmt: skip
         clip = mask_file.with_masks(clip, args.masks) if args.masks else clip
         tell(1.0)
     with progress("looking at the clip") as tell:

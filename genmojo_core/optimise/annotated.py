@@ -11,6 +11,7 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.optimise.motion import ObjectMotion, improved_depth
 from genmojo_core.optimise.poses import project
 from genmojo_core.tracks.model import VISIBLE, PointTracks
+from genmojo_core.tracks.supervision import sure
 
 _REACH = 1  # held px around a point in which its depth may be read
 _SHARE = 0.4  # what annotated tracks count together, in what the object's own hundreds of tracks do, if all contradict
@@ -21,6 +22,8 @@ _HELD = 0.5  # held px, which matches are not surer of
 def with_annotated(clip: Clip, motions: Sequence[ObjectMotion]) -> list[ObjectMotion]:
     """The motions with the clip's given tracks added to their own: sure where seen, silent elsewhere.
 
+    Where their flags tell what a person gave and what a tracker guessed, guesses and uncertain places are silent too.
+
     They are few beside the motion's own tracks, so where the motion is off by more than a person lets pass, each counts
     for as many as makes all of an object's together heard; elsewhere people only say that it is right.
 
@@ -30,7 +33,7 @@ def with_annotated(clip: Clip, motions: Sequence[ObjectMotion]) -> list[ObjectMo
     if clip.tracks is None or not clip.tracks.given or not len(clip.tracks.value.object):
         return list(motions)
     known = improved_depth(clip, motions)
-    tracks = clip.tracks.value.resized(*clip.size)
+    tracks = sure(clip.tracks.value).resized(*clip.size)
     return [_added(known, tracks, motion, int(clip.object_ids[k])) for k, motion in enumerate(motions)]
 
 

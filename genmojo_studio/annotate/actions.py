@@ -95,6 +95,8 @@ _POINT = (
 
 _TRACK = (
     _action("track.seed", "Seed tracks…", "Ctrl+G", "Lets a tracker propose positions for every point."),
+    _action("track.scene", "Solve from scene", "Ctrl+Shift+G", "Optimises a scene that follows what you placed and "
+            "takes its tracks; begins at once and tells how long it takes."),
     _action("track.next", "Track one frame on", "Alt+Right", "Takes the point into the next frame."),
     _action("track.previous", "Track one frame back", "Alt+Left", "Takes the point into the frame before."),
     _action("track.on", "Track on to the next key", "T", "Solves from here to the next key.", cvat="T",

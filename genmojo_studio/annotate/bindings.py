@@ -127,6 +127,7 @@ class Hands:
         s, w, tracker = self._s, self._w, self._w.work.tracker
         return {
             "track.seed": self.dialogs.seed,
+            "track.scene": self.dialogs.solve_from_scene,
             "track.next": lambda: tracker.one(1),
             "track.previous": lambda: tracker.one(-1),
             "track.on": lambda: tracker.run(1),
@@ -185,7 +186,7 @@ class Hands:
                                        "move.bisect"))  # fmt: skip
         if name.startswith("object."):
             return lambda: self._w.session is s and s.sketching
-        if name == "track.seed":
+        if name in ("track.seed", "track.scene"):
             return lambda: self._w.session is s and bool(s.annotation.tracks)
         if name.startswith(("point.nudge", "point.push")):
             return lambda: self._w.session is s and s.nudged is not None

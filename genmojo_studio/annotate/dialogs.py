@@ -33,9 +33,18 @@ class Dialogs:
 
     def seed(self) -> None:
         """Which tracker, which tracks; then it runs in the background."""
+        self._seed_dialog().open()
+
+    def solve_from_scene(self) -> None:
+        """A scene is optimised and its tracks taken, without a question; the dialog tells how long, and cancels."""
+        dialog = self._seed_dialog()
+        dialog.open()
+        dialog.solve_from_scene()
+
+    def _seed_dialog(self) -> SeedDialog:
         dialog = SeedDialog(self._s, self._w.work, self._w)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.open()
+        return dialog
 
     def fix(self) -> None:
         """What is wrong, by a key from 1 to 6; the run marked, or this frame, is meant."""

@@ -3,23 +3,44 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
 from PySide6.QtCore import QElapsedTimer, QObject, QProcess, QTimer, Signal
 
-from genmojo_core.tracks.annotation import CONFIRMED, KEY, Annotation
-from genmojo_core.tracks.model import NONE, PointTracks
+from genmojo_core.tracks.annotation import Annotation
 from genmojo_studio.translate import fault, tr
 
-_MARGIN = 1.15  # reading, writing and the first estimates come on top of the budget
+SUFFIX = ".scene.h5"  # of the scene beside a project
+_START_SECONDS, _FRAME_SECONDS = 5.0, 0.35  # on top of the budget: start and end, a frame's reading and estimates
+_FOLLOW_START, _FOLLOW_SECONDS = 2.0, 0.15  # to follow the points through the scene: start, a frame
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """Seconds until tracks from a scene are there: to optimise it, and to follow the points through it."""
+
+    optimise: float
+    follow: float
+
+    @property
+    def whole(self) -> float:
+        """Both."""
+        return self.optimise + self.follow
+
+    @staticmethod
+    def of(budget: float, annotation: Annotation) -> Forecast:
+        """For a budget of seconds, from the number of frames (measured on clips of 24 and 78 frames)."""
+        frames = annotation.frames
+        optimise = budget + _START_SECONDS + _FRAME_SECONDS * frames
+        return Forecast(optimise, _FOLLOW_START + _FOLLOW_SECONDS * frames)
 
 
 class SceneJob(QObject):
     """One optimisation with a budget of seconds, which makes its end foreseeable.
 
     Args:
-        clip, output: what is optimised, where the scene goes. seconds: budget.
+        clip, output: what is optimised, where the scene goes. seconds: budget. expected: seconds it will take.
         given: options of `genmojo optimize` with a file each that a person made: {"--tracks": npz, "--masks": npz}.
     """
 
@@ -28,10 +49,11 @@ class SceneJob(QObject):
     failed = Signal(str)  # a sentence
 
     def __init__(
-        self, clip: Path, output: Path, seconds: float, given: dict[str, Path], parent: QObject | None = None
-    ) -> None:
+        self, clip: Path, output: Path, seconds: float, expected: float, given: dict[str, Path],
+        parent: QObject | None = None,
+    ) -> None:  # fmt: skip
         super().__init__(parent)
-        self._output, self._seconds = output, seconds
+        self._output, self._expected = output, expected
         self._process = QProcess(self)
         self._process.setProgram(sys.executable)
         files = [word for option, path in given.items() for word in (option, str(path))]
@@ -67,14 +89,17 @@ class SceneJob(QObject):
                 self._process.waitForFinished(2000)
 
     def _tell(self) -> None:
-        self.progressed.emit(min(self._clock.elapsed() / 1000 / (self._seconds * _MARGIN), 0.99))
+        self.progressed.emit(min(self._clock.elapsed() / 1000 / self._expected, 0.99))
 
-    def _ended(self, code: int, _status: QProcess.ExitStatus) -> None:
+    def _ended(self, code: int, status: QProcess.ExitStatus) -> None:
         self._tick.stop()
         if self._cancelled:
             return
         if code == 0 and self._output.exists():
             self.finished.emit(str(self._output))
+            return
+        if status == QProcess.ExitStatus.CrashExit:
+            self.failed.emit(tr("The system ended the optimisation; memory may have run out. Close other programs."))
             return
         lines = bytes(self._process.readAllStandardError().data()).decode(errors="replace").strip().splitlines()
         self.failed.emit(fault(lines[-1][:400]) if lines else tr("The optimisation ended without a scene."))
@@ -83,20 +108,3 @@ class SceneJob(QObject):
         if error == QProcess.ProcessError.FailedToStart and not self._cancelled:
             self._tick.stop()
             self.failed.emit(tr("The optimisation could not be started."))
-
-
-def said_by_people(annotation: Annotation) -> PointTracks | None:
-    """What people placed or accepted, source pixels; state NONE wherever nobody spoke. None without any of it."""
-    ids = [info.id for info in annotation.active() if len(annotation.keys(info.id))]
-    if not ids:
-        return None
-    cells = [annotation.track(track) for track in ids]
-    sure = np.stack([(c.flags & (KEY | CONFIRMED)) > 0 for c in cells])
-    state = np.where(sure, np.stack([c.state for c in cells]), NONE).astype(np.uint8)
-    owners = np.array([annotation.tracks[track].object for track in ids], np.int64)
-    return PointTracks(np.stack([c.xy for c in cells]).astype(np.float32), state, owners, annotation.size)
-
-
-def forecast(seconds: float) -> float:
-    """Minutes until a scene with a budget of `seconds` is there."""
-    return seconds * _MARGIN / 60

@@ -29,12 +29,13 @@ from PySide6.QtWidgets import (
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.npz import write_tracks
 from genmojo_core.trackers import seeding
+from genmojo_core.tracks.supervision import said_by_people
 from genmojo_studio.annotate import hand_masks
-from genmojo_studio.annotate.scene_job import SceneJob, forecast, said_by_people
+from genmojo_studio.annotate.scene_job import SUFFIX, Forecast, SceneJob
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.work import Work
 from genmojo_studio.settings import Settings
-from genmojo_studio.translate import fault, tr
+from genmojo_studio.translate import decimal, fault, tr
 
 MINUTES = (1, 2, 5, 10)
 
@@ -46,6 +47,7 @@ class SeedDialog(QDialog):
         super().__init__(parent)
         self._session, self._work, self._settings = session, work, Settings()
         self.job: SceneJob | None = None
+        self._expected = Forecast(0.0, 1.0)
         self.setWindowTitle(tr("Seed tracks"))
         self.setMinimumWidth(500)
         column = QVBoxLayout(self)
@@ -60,6 +62,7 @@ class SeedDialog(QDialog):
             button.setChecked(n == 0)
             self._scope.addButton(button, n)
             scope.addWidget(button)
+        self.active_only = self._scope.button(1)
         scope.addStretch()
         column.addLayout(scope)
         self.note = QLabel(tr("Your keys, accepted places and painted states stay as they are."), wordWrap=True)
@@ -77,6 +80,7 @@ class SeedDialog(QDialog):
         self._trackers.idClicked.connect(self._show_options)
         work.tracker.progressed.connect(self._progressed)
         work.tracker.seeded.connect(self._seeded)
+        session.said.connect(self.note.setText)  # a window-modal dialog hides what the status line says
         self._show_options(0)
 
     def choice(self) -> str:
@@ -91,6 +95,11 @@ class SeedDialog(QDialog):
     def objects(self) -> list[int]:
         """Ids of the objects to seed."""
         return [o.id for o in self._session.objects()] if self._scope.checkedId() == 0 else [self._session.active[0]]
+
+    def solve_from_scene(self) -> None:
+        """Begin at once: optimise a scene for the time chosen last, and take its tracks."""
+        self.choose("scene")
+        self._start()
 
     def reject(self) -> None:
         """Close; what runs is cancelled."""
@@ -132,12 +141,33 @@ class SeedDialog(QDialog):
         form = QFormLayout(inside)
         self.minutes = QComboBox()
         for minutes in MINUTES:
-            text = tr("{n} min of optimising, ready in about {m:.1f} min").format(n=minutes, m=forecast(60 * minutes))
-            self.minutes.addItem(text, minutes)
+            ready = decimal(self._forecast(60.0 * minutes).whole / 60, ".1f")
+            self.minutes.addItem(
+                tr("{n} min of optimising, ready in about {m} min").format(n=minutes, m=ready), minutes
+            )
+        for title, path in self._scenes_there():
+            self.minutes.addItem(title, str(path))
+        last = self.minutes.findData(int(self._settings.text("seed/minutes", "1")))
+        self.minutes.setCurrentIndex(max(last, 0))
         self.scene = _PathLine(tr("or a scene of this clip that exists"), "scene.h5 (*.h5)")
         form.addRow(tr("Time"), self.minutes)
         form.addRow(tr("Scene"), self.scene)
         return inside
+
+    def _forecast(self, seconds: float) -> Forecast:
+        return Forecast.of(seconds, self._session.annotation)
+
+    def _scenes_there(self) -> list[tuple[str, Path]]:
+        """Scenes of this clip that can be taken at once: this project's last one, the one on show in Watch."""
+        last, shown = self._session.project.path.with_suffix(SUFFIX), self._session.state.scene_path
+        there = [(tr("the last scene of this project, at once"), last)]
+        if shown is not None and shown.suffix == ".h5" and self._session.state.clip_path == self._clip_path:
+            there.append((tr("the scene on show in Watch, at once"), shown))
+        return [(title, path) for title, path in there if path.is_file()]
+
+    @property
+    def _clip_path(self) -> Path:
+        return Path(self._session.project.info.path)
 
     def _cotracker_options(self) -> QWidget:
         inside = QWidget()
@@ -199,10 +229,10 @@ class SeedDialog(QDialog):
         tracker = self._work.tracker
         if name == "optical":
             return tracker.seed(self.objects())
-        if name == "scene" and not self.scene.text():
-            return self._optimise()
         if name == "scene":
-            return tracker.seed_by(seeding.make("scene", self.scene.text()), self.objects())
+            path = self.scene.text() or str(self.minutes.currentData())
+            made = seeding.make("scene", path) if path.endswith(".h5") else None
+            return tracker.seed_by(made, self.objects()) if made is not None else self._optimise()
         if name == "file":
             return tracker.seed_by(seeding.make("file", self.file.text() or None), self.objects())
         if not self.consent.isChecked():
@@ -220,31 +250,49 @@ class SeedDialog(QDialog):
     def _optimise(self) -> bool:
         """Optimise a scene from what people said: points placed and accepted, masks cut out by hand."""
         session = self._session
-        output = session.project.path.with_suffix(".scene.h5")
+        if session.clip is None or not any(len(i) for i in map(session.annotation.keys, session.annotation.tracks)):
+            self.note.setText(
+                tr("The clip is still being read.") if session.clip is None else tr("Place points first.")
+            )
+            return False
+        output = session.project.path.with_suffix(SUFFIX)
         said, given = said_by_people(session.annotation), {}
         if said is not None:
             given["--tracks"] = output.with_suffix(".tracks.npz")
             write_tracks(said, given["--tracks"])
         if session.hand_masks and session.clip is not None:
             given["--masks"] = hand_masks.publish(session.clip, session.project.path)
-        seconds = 60.0 * float(self.minutes.currentData())
-        self.job = SceneJob(Path(session.project.info.path), output, seconds, given, self)
-        self.job.progressed.connect(self._progressed)
+        minutes = float(self.minutes.currentData())
+        self._settings.put("seed/minutes", f"{minutes:.0f}")
+        self._expected = self._forecast(60.0 * minutes)
+        self.job = SceneJob(self._clip_path, output, 60.0 * minutes, self._expected.optimise, given, self)
+        self.job.progressed.connect(self._optimised)
         self.job.finished.connect(self._scene_ready)
         self.job.failed.connect(self._failed)
         self.job.start()
-        self.note.setText(tr("Optimising. You can close this to cancel."))
+        ready = decimal(self._expected.whole / 60, ".1f")
+        self.note.setText(tr("Optimising; ready in about {m} min. You can close this to cancel.").format(m=ready))
         return True
 
     def _scene_ready(self, path: str) -> None:
         self.note.setText(tr("Following the points through the scene …"))
-        self._work.tracker.seed_by(seeding.make("scene", path), self.objects())
+        if not self._work.tracker.seed_by(seeding.make("scene", path), self.objects()):
+            self._show_running(False)
 
     def _failed(self, sentence: str) -> None:
         self._show_running(False)
         self.note.setText(sentence)
 
+    def _optimised(self, share: float) -> None:
+        """Share of the optimisation, which is the first part of the whole."""
+        self._show_share(share * self._expected.optimise / self._expected.whole)
+
     def _progressed(self, share: float) -> None:
+        """Share of the tracking, which is the whole or its last part."""
+        before = 0.0 if self.job is None else self._expected.optimise / self._expected.whole
+        self._show_share(before + (1.0 - before) * share)
+
+    def _show_share(self, share: float) -> None:
         self.progress.setValue(round(100 * share))
 
     def _seeded(self, tracks: int) -> None:
@@ -253,7 +301,7 @@ class SeedDialog(QDialog):
         if tracks:
             self.accept()
         else:
-            self._failed(tr("Nothing was seeded; the line below the frame says why."))
+            self._show_running(False)  # why has been said
 
 
 class _PathLine(QWidget):

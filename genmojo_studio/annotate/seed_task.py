@@ -6,6 +6,8 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from genmojo_core.clip.clip import Clip
+from genmojo_core.trackers.solver import SolveRequest
 from genmojo_core.tracks.annotation import Annotation
 from genmojo_core.tracks.keys import name_of
 from genmojo_studio.background import Tasks
@@ -56,3 +58,12 @@ def seeded_words(annotation: Annotation, count: int, lost: list[int]) -> str:
         return tr("Nothing was found for {names}.").format(names=names)
     words = tr("{n} of {m} tracks are seeded. Nothing was found for {names}.")
     return words.format(n=count, m=count + len(lost), names=names)
+
+
+def seedable(annotation: Annotation, objects: list[int], clip: Clip) -> tuple[list[SolveRequest], str]:
+    """What is to be solved for the objects that have points and a mask, and a sentence that names those without one."""
+    placed = [r for r in (SolveRequest.of(annotation, o) for o in objects) if r.tracks]
+    masked = clip.object_ids.tolist()
+    left = ", ".join(annotation.objects[r.object_id].name for r in placed if r.object_id not in masked)
+    words = tr("Without a mask, so left out: {names}.").format(names=left) if left else ""
+    return [r for r in placed if r.object_id in masked], words

@@ -283,4 +283,5 @@ def open_session(state: AppState, path: Path, person: str, project_file: Path | 
     there = Path(project.info.path)
     if state.clip is None or state.clip_path != there or len(state.clip) != cache.count:
         state.set(clip=None, clip_path=there, masks_path=None, frame_count=cache.count, frame=0)
+    state.set(project_path=project.path)
     return Session(state, cache, project)

@@ -117,6 +117,7 @@ SHORT = {  # what a narrow button says where the menu's text is too long
     "track.back": mark("Track back"),
     "track.mode": mark("Fill mode"),
     "track.seed": mark("Seed…"),
+    "track.scene": mark("From scene"),
     "track.lock": mark("Lock"),
     "track.delete": mark("Delete track"),
     "view.fit": mark("Fit"),
@@ -168,7 +169,7 @@ STEPS = (
         mark("Place the key points of every object on its first frame, then seed the tracks."),
         (
             (mark("Place"), _ids("point.snap", "point.key", "point.delete_key", "track.delete")),
-            (mark("Seed"), _ids("track.seed", "file.import")),
+            (mark("Seed"), _ids("track.seed", "track.scene", "file.import")),
             _LOOK,
             (mark("History"), _ids("edit.undo", "edit.redo")),
         ),
@@ -184,7 +185,10 @@ STEPS = (
             (mark("Step"), _ids("move.accept", "move.worst", "move.bisect")),
             _STATES,
             (mark("Point"), _ids("point.key", "point.snap", "point.delete_key")),
-            (mark("Track"), _ids("track.solve", "track.on", "track.back", "track.mode", "track.seed", "track.lock")),
+            (
+                mark("Track"),
+                _ids("track.solve", "track.on", "track.back", "track.mode", "track.seed", "track.scene", "track.lock"),
+            ),  # fmt: skip
             _LOOK,
             (mark("Review"), _ids("review.fixed")),
             (mark("History"), _ids("edit.undo", "edit.redo")),

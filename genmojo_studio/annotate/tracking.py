@@ -25,7 +25,7 @@ from genmojo_core.tracks.model import NONE
 from genmojo_core.tracks.suspicion import Evidence, Suspicion
 from genmojo_studio import notify
 from genmojo_studio.annotate.learnt import Learnt
-from genmojo_studio.annotate.seed_task import SeedTask, seeded_words
+from genmojo_studio.annotate.seed_task import SeedTask, seedable, seeded_words
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.background import Tasks
 from genmojo_studio.translate import fault, tr
@@ -92,9 +92,11 @@ class Tracking(QObject):
     def seed(self, objects: list[int]) -> bool:
         """Fill the tracks of objects from the pixels, wherever nobody said otherwise; False if that cannot begin."""
         clip = self._clip_with_masks()
-        requests = [SolveRequest.of(self._session.annotation, o) for o in objects]
-        requests = [r for r in requests if r.tracks]
-        if clip is None or not requests:
+        if clip is None:
+            return False
+        requests, left_out = seedable(self._session.annotation, objects, clip)
+        if not requests:
+            self._session.said.emit(left_out or tr("Place points first."))
             return False
         self.busy_changed.emit(tr("Seeding {n} tracks …").format(n=sum(len(r.tracks) for r in requests)))
 
@@ -103,7 +105,7 @@ class Tracking(QObject):
             return [solver.answer(r, self._progress(n, len(requests)), cancelled)
                     for n, r in enumerate(requests)]  # fmt: skip
 
-        self._seeding.run(work, self._seeded, self._failed)
+        self._seeding.run(work, lambda answers: self._seeded(answers, left_out), self._failed)
         return True
 
     def seed_by(self, seeder: Seeder, objects: list[int]) -> bool:
@@ -153,8 +155,8 @@ class Tracking(QObject):
         """End a seeding that runs; nothing is changed."""
         self._seeding.cancel()
 
-    def _seeded(self, answers: list[SolveAnswer]) -> None:
-        """All objects as one step."""
+    def _seeded(self, answers: list[SolveAnswer], left_out: str) -> None:
+        """All objects as one step. left_out: a sentence on those that were not seeded."""
         if self._closed:
             return
         self.busy_changed.emit("")
@@ -166,13 +168,13 @@ class Tracking(QObject):
             self._session.do(join("seed", say("seed", count=count), made))
         self._stale |= {answer.request.object_id for answer in answers}
         self._look.start()
-        self._tell_seeded(count, [])
+        self._tell_seeded(count, [], left_out)
 
-    def _tell_seeded(self, count: int, lost: list[int]) -> None:
+    def _tell_seeded(self, count: int, lost: list[int], left_out: str = "") -> None:
         """What the status line said before, that seeding comes next, is over; what was not found is named."""
         words = seeded_words(self._session.annotation, count, lost)
         if words:
-            self._session.said.emit(words)
+            self._session.said.emit(f"{words} {left_out}".strip())
         self.seeded.emit(count)
 
     def after_key(self, track: int, frame: int, step: int | None) -> None:
@@ -373,11 +375,11 @@ class Tracking(QObject):
         if self._closed:
             return
         self.busy_changed.emit("")
-        self.seeded.emit(0)
         if isinstance(error, GenmojoError):
             self._session.said.emit(fault(error))
         else:
             notify.tell(error)
+        self.seeded.emit(0)
 
 
 def _is_key(annotation: Annotation, track: int, frame: int) -> bool:

@@ -6,7 +6,7 @@ from dataclasses import asdict, replace
 from typing import Any
 
 from PySide6.QtCore import Qt, QTimer, Signal
-from PySide6.QtWidgets import QComboBox, QFormLayout, QPushButton, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QComboBox, QFormLayout, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
 from genmojo_core.clip.clip import Clip
 from genmojo_core.clip.resize import fitted
@@ -53,6 +53,9 @@ class RunSetup(QWidget):
         self.device = QComboBox()
         for name, text in zip(_DEVICES, (tr("Automatic"), tr("Processor"), tr("Graphics card (CUDA)")), strict=True):
             self.device.addItem(text, name)
+        self.annotated = QCheckBox(tr("Follow the annotated points"))
+        self.annotated.setChecked(True)
+        self.annotated.setToolTip(tr("What people placed or accepted in this clip leads the scene."))
         self.effects = EffectsTable()
         self.effects.setMinimumHeight(150)
         self.effects.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
@@ -65,6 +68,8 @@ class RunSetup(QWidget):
         form.addRow(tr("Preset"), self.preset)
         form.addRow(tr("Budget"), self.budget)
         form.addRow(tr("Device"), self.device)
+        form.addRow(self.annotated)
+        self._form = form
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addLayout(form)
@@ -84,11 +89,12 @@ class RunSetup(QWidget):
         self.effects.changed.connect(self._tell)
         self.effects.failed.connect(self._measuring_failed)
         self.start_button.clicked.connect(self.start_wanted)
-        self._state.subscribe(self.refresh, "clip", "clip_path", "masks_path")
+        self._state.subscribe(self.refresh, "clip", "clip_path", "masks_path", "project_path")
 
     def refresh(self) -> None:
         """Another clip or preset: measures its effects once the panel is on show."""
-        path = self._state.clip_path
+        path, project = self._state.clip_path, self._state.project_path
+        self._form.setRowVisible(self.annotated, project is not None)
         self.start_button.setEnabled(path is not None)
         if path is None:
             self.said.setText(tr("Open a clip to start a run."))
@@ -129,6 +135,7 @@ class RunSetup(QWidget):
             effects=self.effects.overrides(),
             look_at=self._state.frame,
             masks=str(self._state.masks_path or ""),
+            tracks=str(self._state.project_path or "") if self.annotated.isChecked() else "",
         )
 
     def close_processes(self) -> None:

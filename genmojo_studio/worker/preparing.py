@@ -23,6 +23,7 @@ from genmojo_core.estimate.complete import complete
 from genmojo_core.estimate.masks import Box
 from genmojo_core.estimate.models import Models
 from genmojo_core.sentences import say
+from genmojo_core.store import annotated_tracks
 from genmojo_studio.view3d.snapshot import SnapshotObject
 from genmojo_studio.worker.preview_codec import FrameArrays, Setting
 from genmojo_studio.worker.protocol import RunRequest
@@ -52,8 +53,9 @@ def prepare(request: RunRequest, announce: Announce, stopped: Callable[[], bool]
     """
     config = preset(request.preset, **request.changes)
     announce("reading", say("reading"), 60.0)
-    clip = folders.read(request.clip, frames=request.frames, short_side=config.short_side, ignore=request.ignore,
-                        pixel_aspect=request.pixel_aspect)  # fmt: skip
+    with annotated_tracks.as_npz(request.tracks or None, needed=False) as tracks:
+        clip = folders.read(request.clip, frames=request.frames, short_side=config.short_side, ignore=request.ignore,
+                            pixel_aspect=request.pixel_aspect, tracks=tracks)  # fmt: skip
     clip = mask_file.with_masks(clip, request.masks) if request.masks else clip
 
     def tell(stage: str, share: float) -> None:

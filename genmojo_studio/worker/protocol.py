@@ -102,6 +102,7 @@ class RunRequest:
         frames: (first, end) positions in the source, None for all. ignore: channels not to read.
         pixel_aspect: of source pixels, None for the clip's own. boxes: rows (frame, x0, y0, x1, y1), one object each.
         masks: file of corrected masks that stand for the clip's (clip/mask_file.py), "" for none.
+        tracks: annotated tracks to follow, an npz or a project (store/annotated_tracks.py), "" for the clip's own.
         models: external models by option name, as the command line's, e.g. {"depth_model": "folder"}.
         resume: go on from the run folder's checkpoint. paused: wait before the first step.
         cadence: how often previews come. look_at: frame the window shows, None for the canonical one.
@@ -118,6 +119,7 @@ class RunRequest:
     pixel_aspect: float | None = None
     boxes: tuple[tuple[float, ...], ...] = ()
     masks: str = ""
+    tracks: str = ""
     models: dict[str, str] = field(default_factory=dict)
     resume: bool = False
     paused: bool = False

@@ -1044,6 +1044,10 @@
       <translation>ihren Annotator</translation>
     </message>
     <message>
+      <source>The system ended the optimisation; memory may have run out. Close other programs.</source>
+      <translation>Das System hat die Optimierung beendet; vielleicht reichte der Speicher nicht. Schließen Sie andere Programme.</translation>
+    </message>
+    <message>
       <source>The optimisation ended without a scene.</source>
       <translation>Die Optimierung endete ohne Szene.</translation>
     </message>
@@ -1128,10 +1132,6 @@
       <translation>Datei</translation>
     </message>
     <message>
-      <source>Optimising. You can close this to cancel.</source>
-      <translation>Die Optimierung läuft. Schließen bricht ab.</translation>
-    </message>
-    <message>
       <source>Following the points through the scene …</source>
       <translation>Die Punkte werden durch die Szene verfolgt …</translation>
     </message>
@@ -1176,16 +1176,28 @@
       <translation>Spuren dieses Clips, die es schon gibt: TAP-Vid, CoTracker oder unsere (npz).</translation>
     </message>
     <message>
+      <source>the last scene of this project, at once</source>
+      <translation>die letzte Szene dieses Projekts, sofort</translation>
+    </message>
+    <message>
       <source>CoTracker's licence has to be agreed to first.</source>
       <translation>Der Lizenz von CoTracker muss zuerst zugestimmt werden.</translation>
     </message>
     <message>
-      <source>Nothing was seeded; the line below the frame says why.</source>
-      <translation>Es wurde nichts gesetzt; die Zeile unter dem Bild sagt, warum.</translation>
+      <source>the scene on show in Watch, at once</source>
+      <translation>die in Ansehen gezeigte Szene, sofort</translation>
     </message>
     <message>
-      <source>{n} min of optimising, ready in about {m:.1f} min</source>
-      <translation>{n} min optimieren, fertig in etwa {m:.1f} min</translation>
+      <source>Place points first.</source>
+      <translation>Setzen Sie zuerst Punkte.</translation>
+    </message>
+    <message>
+      <source>Optimising; ready in about {m} min. You can close this to cancel.</source>
+      <translation>Es wird optimiert; fertig in etwa {m} min. Schließen bricht ab.</translation>
+    </message>
+    <message>
+      <source>{n} min of optimising, ready in about {m} min</source>
+      <translation>{n} min optimieren, fertig in etwa {m} min</translation>
     </message>
     <message>
       <source>{n} of {m} tracks are seeded. Nothing was found for {names}.</source>
@@ -1194,6 +1206,10 @@
     <message>
       <source>Nothing was found for {names}.</source>
       <translation>Nichts gefunden wurde für {names}.</translation>
+    </message>
+    <message>
+      <source>Without a mask, so left out: {names}.</source>
+      <translation>Ohne Maske und darum ausgelassen: {names}.</translation>
     </message>
     <message>
       <source>{n} tracks are seeded.</source>
@@ -1274,6 +1290,10 @@
     <message>
       <source>Seed…</source>
       <translation>Setzen…</translation>
+    </message>
+    <message>
+      <source>From scene</source>
+      <translation>Aus Szene</translation>
     </message>
     <message>
       <source>Lock</source>
@@ -1722,10 +1742,6 @@
     <message>
       <source>Place points where they are seen.</source>
       <translation>Setzen Sie Punkte dort, wo man sie sieht.</translation>
-    </message>
-    <message>
-      <source>Place points first.</source>
-      <translation>Setzen Sie zuerst Punkte.</translation>
     </message>
     <message>
       <source>Seeding was cancelled; nothing was changed.</source>
@@ -2566,6 +2582,14 @@
     <message>
       <source>The run ends after this time with what it has.</source>
       <translation>Der Lauf endet nach dieser Zeit mit dem, was er hat.</translation>
+    </message>
+    <message>
+      <source>Follow the annotated points</source>
+      <translation>Den annotierten Punkten folgen</translation>
+    </message>
+    <message>
+      <source>What people placed or accepted in this clip leads the scene.</source>
+      <translation>Was Menschen in diesem Clip gesetzt oder angenommen haben, führt die Szene.</translation>
     </message>
     <message>
       <source>Preset</source>
@@ -3944,6 +3968,10 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Lets a tracker propose positions for every point.</source>
       <translation>Lässt einen Verfolger Stellen für jeden Punkt vorschlagen.</translation>
+    </message>
+    <message>
+      <source>Optimises a scene that follows what you placed and takes its tracks; begins at once and tells how long it takes.</source>
+      <translation>Optimiert eine Szene, die dem Gesetzten folgt, und nimmt ihre Spuren; beginnt sofort und sagt, wie lange es dauert.</translation>
     </message>
     <message>
       <source>Track one frame on</source>
@@ -5972,6 +6000,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>{name} has shape {shape}, expected {shape_2}</source>
       <translation>{name} hat die Form {shape}, erwartet ist {shape_2}</translation>
+    </message>
+    <message>
+      <source>holds no point that a person placed</source>
+      <translation>enthält keinen Punkt, den jemand gesetzt hat</translation>
+    </message>
+    <message>
+      <source>place points first</source>
+      <translation>erst Punkte setzen</translation>
     </message>
     <message>
       <source>cannot be written ({reason})</source>

@@ -29,8 +29,8 @@ from genmojo_core.store.npz import write_tracks  # noqa: E402
 from genmojo_core.trackers.evidence import scene_of  # noqa: E402
 from genmojo_core.trackers.seeding import SceneSeeder  # noqa: E402
 from genmojo_core.trackers.solver import SolveRequest, TrackSolver  # noqa: E402
+from genmojo_core.tracks.supervision import said_by_people  # noqa: E402
 from genmojo_core.tracks.suspicion import assess, queue  # noqa: E402
-from genmojo_studio.annotate.scene_job import said_by_people  # noqa: E402
 
 CLIPS, SEEDS = ("blender-cross", "blender-trio"), ("optical", "scene")
 

@@ -14,7 +14,9 @@ from genmojo_core.clip.synthetic_specs import spec
 from genmojo_core.estimate.complete import complete
 from genmojo_core.optimise.annotated import with_annotated
 from genmojo_core.optimise.motion import initial_motion
-from genmojo_core.tracks.model import OCCLUDED, VISIBLE, PointTracks
+from genmojo_core.tracks.annotation import CONFIRMED, KEY, UNCERTAIN
+from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE, PointTracks
+from genmojo_core.tracks.supervision import sure
 
 
 def test_given_tracks_join_the_motions_own_with_their_true_places() -> None:
@@ -51,3 +53,13 @@ def test_people_who_contradict_the_motion_are_heard_beside_its_hundreds_of_track
         after = with_annotated(clip.with_channels(tracks=Channel(tracks, state > 0, "given: test")), motions)[0]
         share = after.track_conf[len(before.track_conf) :].sum() / before.track_conf.sum()
         assert least < share < most
+
+
+def test_only_what_a_person_said_leads_where_flags_tell_it() -> None:
+    clip, truth = generate(replace(spec("crossing-shapes"), frames=5, novel_every=0, size=(128, 72)))
+    state = np.where(truth.visible, VISIBLE, OCCLUDED).astype(np.uint8)
+    flags = np.zeros(state.shape, np.uint8)
+    flags[:, 0], flags[:, 1], flags[:, 2] = KEY, CONFIRMED, KEY | UNCERTAIN
+    told = sure(PointTracks(truth.tracks.astype(np.float32), state, truth.track_object, clip.source_size, flags=flags))
+    assert (told.state[:, :2] == state[:, :2]).all() and (told.state[:, 2:] == NONE).all()
+    assert sure(replace(told, flags=np.zeros_like(flags))).state is told.state, "nobody said anything: all counts"

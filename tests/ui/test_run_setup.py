@@ -2,15 +2,23 @@
 
 import json
 import re
+from dataclasses import replace
 
 from PySide6.QtCore import Qt
 
+from genmojo_core.clip import synthetic, synthetic_files
+from genmojo_core.clip.synthetic_specs import spec
 from genmojo_core.config import PRESETS, preset
 from genmojo_core.effects import auto, decide
+from genmojo_core.store.project import Project, info_of
+from genmojo_core.tracks import edit_tracks, keys
+from genmojo_core.tracks.annotation import ObjectInfo
+from genmojo_core.tracks.model import NONE, VISIBLE
 from genmojo_studio.state import AppState
 from genmojo_studio.watch.forecast import spoken
 from genmojo_studio.watch.run_log import RunLog
 from genmojo_studio.watch.run_setup import RunSetup
+from genmojo_studio.worker import preparing
 from genmojo_studio.worker.protocol import RunRequest
 from tests.optimise.small_runs import small_clip
 
@@ -78,3 +86,33 @@ def test_after_a_run_what_was_expected_stands_beside_what_came(qapp, tmp_path):
     assert f"expected {spoken(seconds)} and {decibel:.1f} dB, took {spoken(41.0)}, 27.2 dB" in setup.said.text()
     setup.request()
     assert told(setup) == (seconds, decibel)
+
+
+def test_a_run_follows_the_annotated_points_of_the_clip_unless_told_otherwise(qapp, tmp_path):
+    clip, folder = made_clip(tmp_path)
+    state, file = AppState(), tmp_path / "p.genmojo"
+    setup = RunSetup(state)
+    state.open_clip(clip, folder)
+    assert setup.annotated.isHidden() and setup.request().tracks == ""
+    project = Project.create(file, info_of(len(clip), clip.source_size, str(folder)), person="Ada")
+    state.set(project_path=file)
+    assert not setup.annotated.isHidden()
+    prepared, _, _ = preparing.prepare(setup.request(), lambda *_: None, lambda: False)
+    assert prepared.tracks is None, "nobody has placed a point: the run goes without"
+    owner = int(clip.object_ids[0])
+    project.do(edit_tracks.put_objects(project.annotation, [ObjectInfo(owner, "one", 1, "chosen")]))
+    project.do(edit_tracks.add_track(project.annotation, owner, 1, "Ada"))
+    project.do(keys.set_key(project.annotation, 1, 0, (5.0, 6.0)))
+    project.close()
+    prepared, _, _ = preparing.prepare(setup.request(), lambda *_: None, lambda: False)
+    assert prepared.tracks.given and prepared.tracks.value.state.tolist() == [[VISIBLE] + [NONE] * (len(clip) - 1)]
+    setup.annotated.setChecked(False)
+    assert setup.request().tracks == ""
+
+
+def made_clip(tmp_path):
+    """A small clip in a folder of its own."""
+    clip, truth = synthetic.generate(replace(spec("crossing-shapes"), frames=4, novel_every=0, size=(96, 54)))
+    synthetic_files.write(clip, truth, tmp_path / "clip")
+    (tmp_path / "clip" / "tracks.npz").unlink(missing_ok=True)
+    return clip, tmp_path / "clip"

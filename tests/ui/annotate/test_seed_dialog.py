@@ -13,7 +13,9 @@ from shiboken6 import isValid
 
 from genmojo_core.clip import mask_file
 from genmojo_core.store.npz import read_tracks
-from genmojo_core.tracks.annotation import KEY
+from genmojo_core.tracks import keys
+from genmojo_core.tracks.annotation import KEY, ObjectInfo
+from genmojo_core.tracks.edit_tracks import add_track, put_objects
 from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE
 from genmojo_studio.annotate.seed_dialog import SeedDialog
 
@@ -105,6 +107,55 @@ def test_a_scene_is_optimised_with_the_masks_cut_by_hand(workspace, qtbot):
     assert own in given.object_ids
     assert (given.object_mask(given.object_ids.tolist().index(own)) == workspace.session.hand_masks[own]).all()
     assert "--tracks" in arguments
+
+
+def test_why_nothing_was_seeded_is_said_in_the_dialog(workspace, qtbot, checkout):
+    choose_all(workspace)
+    place_points(workspace, each=1)
+    checkout[1].write_bytes(b"no weights")
+    dialog = opened(workspace)
+    dialog.choose("cotracker")
+    dialog.checkout.line.setText(str(checkout[0]))
+    dialog.weights.line.setText(str(checkout[1]))
+    dialog.consent.setChecked(True)
+    dialog.start.click()
+    qtbot.waitUntil(lambda: dialog.start.isEnabled(), timeout=60_000)
+    assert "CoTracker stopped" in dialog.note.text()
+    dialog.reject()
+
+
+def test_an_object_without_mask_or_points_does_not_stop_the_others(workspace, qtbot):
+    choose_all(workspace)
+    place_points(workspace, each=1)
+    session = workspace.session
+    annotation, first = session.annotation, next(iter(session.annotation.tracks))
+    session.do(put_objects(annotation, [ObjectInfo(9, "ghost", 9, "chosen")]))
+    session.select(9, 1)
+    dialog = opened(workspace)
+    dialog.active_only.setChecked(True)
+    dialog.start.click()
+    assert dialog.isVisible() and dialog.note.text() == "Place points first."
+    dialog.reject()
+    session.do(add_track(annotation, 9, 1))
+    (ghost,) = annotation.tracks_of(9)
+    session.do(keys.set_key(annotation, ghost.id, 0, tuple(annotation.track(first).xy[0])))
+    said = []
+    session.said.connect(said.append)
+    dialog = opened(workspace)
+    dialog.start.click()
+    qtbot.waitUntil(lambda: not isValid(dialog), timeout=120_000)
+    assert (session.annotation.track(first).state != NONE).all()
+    assert any("ghost" in sentence and "seeded" in sentence for sentence in said)
+
+
+def test_solve_from_scene_begins_at_once_with_a_forecast(workspace, qtbot):
+    choose_all(workspace)
+    place_points(workspace, each=1)
+    workspace.table.trigger("annotate.track.scene")
+    dialog = next(d for d in workspace.findChildren(SeedDialog) if d.isVisible())
+    assert dialog.job is not None and dialog.progress.isVisible() and "min" in dialog.note.text()
+    assert "--tracks" in dialog.job.arguments()
+    dialog.reject()
 
 
 @pytest.mark.slow
