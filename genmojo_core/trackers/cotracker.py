@@ -110,7 +110,12 @@ class CoTrackerSeeder:
             ):
                 self._watch(child, cancelled)
             if child.returncode != 0 or not answer.is_file():
-                last = words.read_text(errors="replace").strip().splitlines()[-1:] or [f"exit {child.returncode}"]
+                said_last = words.read_text(errors="replace").strip()
+                if _is_out_of_memory(child.returncode, said_last):
+                    raise GenmojoError("budget", "CoTracker ran out of memory, or the system ended it",
+                                       str(self._checkout),
+                                       "close other programs, or use a shorter or smaller clip")  # fmt: skip
+                last = said_last.splitlines()[-1:] or [f"exit {child.returncode}"]
                 raise GenmojoError("missing_package", f"CoTracker stopped: {last[0][:300]}", str(self._checkout),
                                    "check checkout, checkpoint and memory")  # fmt: skip
             arrays = read_arrays(answer)
@@ -127,6 +132,12 @@ class CoTrackerSeeder:
                 child.kill()
                 raise GenmojoError("argument", "was stopped before it was done", "cotracker")
             time.sleep(0.05)
+
+
+def _is_out_of_memory(code: int, words: str) -> bool:
+    """Whether a child ended for want of memory: killed by the system, or by its last words."""
+    last = words[-2000:].lower()
+    return code in (-9, 137) or any(sign in last for sign in ("memoryerror", "out of memory", "can't allocate memory"))
 
 
 def in_windows(

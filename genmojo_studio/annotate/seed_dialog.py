@@ -50,7 +50,7 @@ class SeedDialog(QDialog):
         self._expected = Forecast(0.0, 1.0)
         self.setWindowTitle(tr("Seed tracks"))
         self.setMinimumWidth(500)
-        column = QVBoxLayout(self)
+        self._column = column = QVBoxLayout(self)
         self._trackers, self._scope = QButtonGroup(self), QButtonGroup(self)
         self.options: dict[str, QWidget] = {}
         for n, (title, about, make) in enumerate(self._choices()):
@@ -205,7 +205,7 @@ class SeedDialog(QDialog):
     def _show_options(self, chosen: int) -> None:
         for n, name in enumerate(seeding.NAMES):
             self.options[name].setVisible(n == chosen and name != "optical")
-        self.adjustSize()
+        self._fit()
 
     # ---- what is done
 
@@ -223,6 +223,12 @@ class SeedDialog(QDialog):
         self.progress.setVisible(on)
         for widget in (self.start, *self._trackers.buttons(), *self._scope.buttons(), *self.options.values()):
             widget.setEnabled(not on)
+        self._fit()
+
+    def _fit(self) -> None:
+        """As high as what is on show needs: lines that wrap need more than a layout asks for by itself."""
+        self._column.activate()
+        self.resize(self.width(), max(self._column.totalHeightForWidth(self.width()), self.sizeHint().height()))
 
     def _begin(self, name: str) -> bool:
         """Start what was chosen; False (with a sentence) where something is missing. Raises GenmojoError."""

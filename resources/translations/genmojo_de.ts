@@ -6714,6 +6714,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>geben Sie die Gewichte von CoTracker (.pth)</translation>
     </message>
     <message>
+      <source>CoTracker ran out of memory, or the system ended it</source>
+      <translation>CoTracker ging der Speicher aus, oder das System hat es beendet</translation>
+    </message>
+    <message>
+      <source>close other programs, or use a shorter or smaller clip</source>
+      <translation>schließen Sie andere Programme, oder nehmen Sie einen kürzeren oder kleineren Clip</translation>
+    </message>
+    <message>
       <source>has no masks, and points are tracked inside them</source>
       <translation>hat keine Masken, und Punkte werden in ihnen verfolgt</translation>
     </message>

@@ -121,6 +121,11 @@ def test_why_nothing_was_seeded_is_said_in_the_dialog(workspace, qtbot, checkout
     dialog.start.click()
     qtbot.waitUntil(lambda: dialog.start.isEnabled(), timeout=60_000)
     assert "CoTracker stopped" in dialog.note.text()
+    source = checkout[0] / "cotracker" / "predictor.py"
+    source.write_text("import os, signal\nos.kill(os.getpid(), signal.SIGKILL)\n")
+    dialog.start.click()
+    qtbot.waitUntil(lambda: dialog.start.isEnabled(), timeout=60_000)
+    assert "out of memory" in dialog.note.text()
     dialog.reject()
 
 
