@@ -49,6 +49,7 @@ _MOVE = (
     _action("move.worst", "Next suspicious spot", "N", "The most suspicious spot that nobody looked at."),
     _action("move.worst_back", "Previous suspicious spot", "Shift+N", "Back through the suspicious spots."),
     _action("move.back", "Back to where I was", "Alt+Home", "The frame and track before the last jump."),
+    _action("move.ahead", "On to where I came from", "Alt+End", "The other way after going back."),
     _action("move.panel", "Next panel", "F6", "Moves the keyboard to the next panel."),
     _action("move.panel_back", "Previous panel", "Shift+F6", "Moves the keyboard to the panel before."),
     _action("move.frame", "Back to the frame", "Esc", "Gives the keyboard to the frame and puts drawing tools away."),

@@ -45,11 +45,13 @@ def _connect(w: AnnotateWorkspace) -> None:
     session, canvas, work = w.session, w.canvas, w.work
     if session is None:
         return
+    w.play.sheet.began.connect(session.remember)
     w.play.sheet.seek.connect(session.go)
     w.play.sheet.picked.connect(session.select_track)
-    w.play.graphs.seek.connect(session.go)
-    w.strip.seek.connect(session.go)
+    for seek in (w.play.graphs.seek, w.strip.seek):
+        seek.connect(partial(session.go, jump=True))
     for page in (w.points, w.refine, w.review):
+        page.tree.chosen.connect(lambda *_: session.remember())
         page.tree.chosen.connect(session.select)
     work.figures_ready.connect(w.objects.set_figures)
     work.tracker.measured.connect(w.play.graphs.set_measures)

@@ -37,6 +37,7 @@ RULER, ROW, LABEL = 30, 18, 168
 class DopeSheet(QAbstractScrollArea):
     """Rows of tracks over columns of frames."""
 
+    began = Signal()  # a press, before it chooses or goes anywhere
     seek = Signal(int)
     picked = Signal(int)
     painted = Signal(int, int, int)  # track, first and last frame
@@ -236,6 +237,7 @@ class DopeSheet(QAbstractScrollArea):
         """Begin to scrub on the ruler, else take the cell."""
         frame, row = self.frame_at(event.position().x()), self.row_at(event.position().y())
         self._ruler = event.position().y() < RULER
+        self.began.emit()
         if row is not None:
             self.picked.emit(self._rows[row])
             if event.position().x() >= LABEL:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -56,6 +56,21 @@ def belongs(widget: QWidget | None, event: QKeyEvent) -> bool:
     return any(isinstance(widget, kind) and Qt.Key(event.key()) in keys for kind, keys in _OWN)
 
 
+class _Closing(QObject):
+    """Hands the keyboard to the frame when a list that was opened closes; keys on a closed box keep it."""
+
+    def __init__(self, box: QComboBox, canvas: QWidget) -> None:
+        super().__init__(box)
+        self._canvas = canvas
+        box.view().installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Once the list is gone, for closing it gives the keyboard to the box."""
+        if event.type() == QEvent.Type.Hide:
+            QTimer.singleShot(0, self._canvas, self._canvas.setFocus)
+        return False
+
+
 def give_back(root: QWidget, canvas: QWidget) -> None:
     """A mouse click on a button leaves the keyboard where it is; one into a list hands it to the frame."""
     for button in root.findChildren(QPushButton):
@@ -65,5 +80,7 @@ def give_back(root: QWidget, canvas: QWidget) -> None:
     for field in root.findChildren(QLineEdit):
         if not isinstance(field.parent(), (QAbstractSpinBox, QComboBox)):
             field.returnPressed.connect(canvas.setFocus)
+    for box in root.findChildren(QComboBox):
+        _Closing(box, canvas)
     for queue in root.findChildren(QListWidget):
         queue.itemClicked.connect(lambda *_: canvas.setFocus())

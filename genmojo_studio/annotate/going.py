@@ -47,6 +47,7 @@ class Going:
             "move.worst": self.worst,
             "move.worst_back": self.worst_back,
             "move.back": s.go_back,
+            "move.ahead": s.go_ahead,
         }
 
     def step(self, frames: int) -> None:
@@ -125,7 +126,8 @@ class Going:
         return False
 
     def _show(self, spot: Spot, before: str = "") -> None:
-        self._s.go(spot.frame, jump=True)
+        self._s.remember()
+        self._s.go(spot.frame)
         self._s.select_track(spot.track)
         self._s.said.emit(before + ", ".join(map(told, spot.reasons[:2])))
 

@@ -1,5 +1,6 @@
-"""Curves of the active track over time: position, speed, confidence, suspicion. A click goes to that frame.
+"""Curves of the active track over time: position, speed, confidence, suspicion.
 
+A click goes to that frame, a double click shows the whole curve again after zooming.
 In the curves of x and y the keys are knots: dragging one up or down moves the key.
 """
 
@@ -90,6 +91,7 @@ class Graphs(QWidget):
         row.addWidget(self.plot, 1)
         self._lines: list[pg.GraphicsObject] = []
         self.knots: Knots | None = None
+        self._drawn: tuple[tuple[int, int], int] | None = None  # point and curve on show
         session.edited.connect(self._later)
         session.selected.connect(self._later)
         session.frame_changed.connect(self._move)
@@ -109,6 +111,10 @@ class Graphs(QWidget):
             self.plot.removeItem(line)
         self._lines, self.knots = [], None
         session = self._session
+        drawn = (session.active, self.choice.currentIndex())
+        if drawn != self._drawn:  # a range that was zoomed belongs to the curve before
+            self._drawn = drawn
+            self.plot.getViewBox().enableAutoRange()
         place = session.place_of(session.active[0])
         for info in session.annotation.tracks_of(session.active[0]):
             values = self._values(info.id)
@@ -161,6 +167,10 @@ class Graphs(QWidget):
             self._now.setValue(frame)
 
     def _clicked(self, event: object) -> None:
+        """A click goes to the frame; a second one right after it shows the whole curve again."""
+        if event.double():  # type: ignore[attr-defined]
+            self.plot.getViewBox().enableAutoRange()
+            return
         place = self.plot.getPlotItem().vb.mapSceneToView(event.scenePos())  # type: ignore[attr-defined]
         if event.button() == Qt.MouseButton.LeftButton:  # type: ignore[attr-defined]
             self.seek.emit(round(place.x()))

@@ -80,7 +80,8 @@ class Session(QObject):
         self.sketching = False  # whether it is shown
         self._points: dict[tuple[int, int], int] = {}
         self._looked_up = -1
-        self._back: list[tuple[int, tuple[int, int]]] = []
+        self._back: list[tuple[int, tuple[int, int]]] = []  # frames and points before jumps
+        self._ahead: list[tuple[int, tuple[int, int]]] = []  # those that were gone back from
         self.annotation.listeners.append(self._touched)
         project.saved = lambda _seq, seconds: self.stored.emit(seconds)
         project.failed = lambda error: self.said.emit(fault(error))
@@ -161,15 +162,33 @@ class Session(QObject):
         """Show a frame; a jump can be gone back from."""
         frame = min(max(frame, 0), self.annotation.frames - 1)
         if jump and frame != self.frame:
-            self._back = [*self._back[-99:], (self.frame, self.active)]
+            self.remember()
         self.state.set(frame=frame)
+
+    def remember(self) -> None:
+        """This frame and point can be gone back to: called where a jump, a scrub or a choice begins."""
+        self._ahead = []
+        if not self._back or self._back[-1] != (self.frame, self.active):
+            self._back = [*self._back[-99:], (self.frame, self.active)]
 
     def go_back(self) -> None:
         """The frame and point before the last jump."""
-        if self._back:
-            frame, active = self._back.pop()
-            self.select(*active)
-            self.go(frame)
+        self._retrace(self._back, self._ahead)
+
+    def go_ahead(self) -> None:
+        """Where `go_back` came from."""
+        self._retrace(self._ahead, self._back)
+
+    def _retrace(self, way: list[tuple[int, tuple[int, int]]], other: list[tuple[int, tuple[int, int]]]) -> None:
+        here = (self.frame, self.active)
+        while way:
+            place = way.pop()
+            if place != here:
+                other.append(here)
+                self.select(*place[1])
+                self.go(place[0])
+                return
+        self.said.emit(tr("There is no place to go to that way."))
 
     def select(self, object_id: int, number: int = 1) -> None:
         """Make a point active."""
@@ -226,6 +245,7 @@ class Session(QObject):
 
     def _moved(self, move: object, sentence: str) -> None:
         before = dict(self.annotation.tracks)
+        self.remember()
         try:
             step = move() if callable(move) else None
         except GenmojoError as error:

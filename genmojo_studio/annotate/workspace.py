@@ -183,7 +183,8 @@ class AnnotateWorkspace(QMainWindow):
         session.said.connect(self.say)
         session.stored.connect(self._stored)
         bind(self)
-        give_back(self.pages, self.canvas)
+        for panel in (self.pages, self.play):
+            give_back(panel, self.canvas)
         self._theme_changed()
         self.step = self._first_open_step()  # nothing of the step before is on show any more that could be remembered
         self.show_step(self.step)

@@ -1216,6 +1216,10 @@
       <translation>{n} Spuren haben nun einen Vorschlag.</translation>
     </message>
     <message>
+      <source>There is no place to go to that way.</source>
+      <translation>Dorthin gibt es keine Stelle mehr.</translation>
+    </message>
+    <message>
       <source>Nothing more to take back or do again.</source>
       <translation>Nichts mehr zurückzunehmen oder zu wiederholen.</translation>
     </message>
@@ -3596,6 +3600,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>The frame and track before the last jump.</source>
       <translation>Bild und Spur vor dem letzten Sprung.</translation>
+    </message>
+    <message>
+      <source>On to where I came from</source>
+      <translation>Wieder vor, woher ich kam</translation>
+    </message>
+    <message>
+      <source>The other way after going back.</source>
+      <translation>Nach dem Zurückgehen die andere Richtung.</translation>
     </message>
     <message>
       <source>Next panel</source>
