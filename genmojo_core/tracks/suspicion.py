@@ -95,11 +95,16 @@ class Calibration:
         With `annotation` only from places that stand as a person left them: what was undone teaches nothing.
         """
         first = np.array(list(TRUST.values()))
-        told = [o for cell, o in self.outcomes.items() if annotation is None or _stands(annotation, *cell)]
+        told = list(self.outcomes.values()) if annotation is None else self._standing(annotation)
         fired = np.array([o[0] for o in told]).reshape(-1, len(first))
         right = np.array([o[1] for o in told], bool)
         learnt = (first * self.prior + fired[right].sum(axis=0)) / (self.prior + fired.sum(axis=0))
         return np.asarray(np.maximum(learnt, _LEAST_TRUST * first))
+
+    def _standing(self, annotation: Annotation) -> list[tuple[np.ndarray, bool]]:
+        """Outcomes of places on which a person's word is still there."""
+        flags = {t: annotation.track(t).flags for t in {track for track, _ in self.outcomes} & set(annotation.tracks)}
+        return [o for (track, t), o in self.outcomes.items() if track in flags and flags[track][t] & (KEY | CONFIRMED)]
 
     def learn(self, track: int, t: int, suspicion: Suspicion, corrected: bool) -> None:
         """A person looked at frame t of a track and corrected it or accepted it; again says nothing new."""
@@ -189,8 +194,3 @@ def _judged(cells: Cells, parts: np.ndarray, trust: np.ndarray) -> Suspicion:
     kept[on_mask, is_key & (cells.state == OCCLUDED)] = _LOOKED_AT
     parts = parts * kept * (cells.state != NONE)
     return Suspicion(1.0 - np.prod(1.0 - parts, axis=0), parts, trust)
-
-
-def _stands(annotation: Annotation, track: int, t: int) -> bool:
-    """Whether a person's word on a place is still there."""
-    return track in annotation.tracks and bool(annotation.track(track).flags[t] & (KEY | CONFIRMED))

@@ -50,7 +50,10 @@ class SpotQueue(QObject):
     def left(self) -> list[Spot]:
         """What nobody has looked at as it stands, worst first."""
         self._seen = [s for s in self._seen if self._stands(s)]
-        return [s for s in self.spots if not any(_same(s, seen.spot) for seen in self._seen)]
+        seen: dict[int, list[Spot]] = {}
+        for looked in self._seen:
+            seen.setdefault(looked.spot.track, []).append(looked.spot)
+        return [s for s in self.spots if not any(_same(s, other) for other in seen.get(s.track, ()))]
 
     def next(self) -> Spot | None:
         """The worst one left becomes the one on show."""

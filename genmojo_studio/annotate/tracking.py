@@ -76,7 +76,7 @@ class Tracking(QObject):
 
     def close(self) -> None:
         """Drop what is going on."""
-        self.learnt.keep()
+        self.learnt.keep(now=True)
         self._closed = True
         self._seeding.cancel()
         self._look.stop()
