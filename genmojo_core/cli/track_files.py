@@ -30,6 +30,8 @@ def add_commands(commands: Any) -> None:
     seed.add_argument("--tracker", default="optical", metavar="NAME[:PATH]", help="optical, scene:scene.h5, "
                       "file:tracks.npz, cotracker:CHECKOUT, cotracker:hub:MODEL")  # fmt: skip
     seed.add_argument("--checkpoint", metavar="FILE.pth", help="CoTracker's weights")
+    seed.add_argument("--window", type=int, metavar="N", help="frames that CoTracker sees at once (64)")
+    seed.add_argument("--memory", type=float, metavar="GIB", help="memory it may take (0.8 of the machine's; 0: all)")
     seed.add_argument("--allow-download", action="store_true", help="cotracker:hub:MODEL may download and run code")
     seed.add_argument("-o", "--output", required=True, metavar="t.npz")
     seed.set_defaults(run=run_seed)
@@ -45,7 +47,9 @@ def run_seed(args: argparse.Namespace) -> dict[str, Any]:
     check_writable(args.output)
     t, xy = npz.read_queries(args.points)
     name, _, path = args.tracker.partition(":")
-    options = {"checkpoint": args.checkpoint or "", "consent": "yes" if args.allow_download else ""}
+    options = {"checkpoint": args.checkpoint or "", "consent": "yes" if args.allow_download else "",
+               "window": "" if args.window is None else str(args.window),
+               "memory": "" if args.memory is None else str(args.memory)}  # fmt: skip
     seeder = seeding.make(name, path or None, **options)
     if seeder.licence:
         say(seeder.licence)

@@ -7,13 +7,14 @@ CoTracker counts from the centre of the first pixel, axes are (time, point), que
 
 from __future__ import annotations
 
+import math
 import os
 import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -37,13 +38,30 @@ _PROCESS = "genmojo_core.trackers.cotracker_process"
 _OVERLAP = 8  # frames two windows share
 
 
+WINDOWS = (2 * _OVERLAP, 512)  # least and most frames of a window
+
+
+def machine_gib() -> float:
+    """GiB of memory of this machine; 24 where the system does not tell."""
+    try:
+        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    except (AttributeError, ValueError, OSError):
+        return 24.0
+
+
 @dataclass(frozen=True)
 class Limits:
-    """frames per window, GiB of address space of the child (Linux; 0: none), seconds until it is stopped."""
+    """frames per window; GiB of address space of the child (Linux, on the processor; 0: none), by default 0.8 of the
+    machine's; seconds until it is stopped. Raises GenmojoError("value") for windows outside WINDOWS."""
 
     window: int = 64
-    memory_gib: float = 24.0
+    memory_gib: float = field(default_factory=lambda: 0.8 * machine_gib())
     seconds: float = 3600.0
+
+    def __post_init__(self) -> None:
+        if not WINDOWS[0] <= self.window <= WINDOWS[1] or not 0 <= self.memory_gib < math.inf:
+            raise GenmojoError("value", f"a window of {self.window} frames and {self.memory_gib:g} GiB are no limits",
+                               "cotracker", f"give {WINDOWS[0]} to {WINDOWS[1]} frames and GiB from 0")  # fmt: skip
 
 
 class CoTrackerSeeder:
@@ -80,7 +98,10 @@ class CoTrackerSeeder:
     def seed(
         self, clip: Clip, queries: Queries, progress: Progress | None = None, cancelled: Cancelled | None = None
     ) -> PointTracks:
-        """Tracks of the queries. Raises GenmojoError("missing_package") with the child's last words if it fails."""
+        """Tracks of the queries. Where memory runs out, windows of half the frames are tried, down to the least.
+
+        Raises GenmojoError("missing_package") with the child's last words if it fails, "budget" if memory ran out.
+        """
         size = np.array(clip.source_size, np.float64)
         scale = np.array(clip.size, np.float64) / size
         held = np.concatenate([queries.t[:, None], queries.xy * scale - CENTRE], axis=1)
@@ -88,7 +109,15 @@ class CoTrackerSeeder:
         def run(frames: np.ndarray, asked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             return self._child(frames, asked, cancelled)
 
-        xy, seen = in_windows(clip.frames, held, self._limits.window, run, progress)
+        window = min(self._limits.window, max(len(clip), WINDOWS[0]))
+        while True:
+            try:
+                xy, seen = in_windows(clip.frames, held, window, run, progress)
+                break
+            except GenmojoError as error:
+                if error.code != "budget" or window <= WINDOWS[0]:
+                    raise
+                window = max(window // 2, WINDOWS[0])
         tracks = tracks_from_cotracker(xy, seen, clip.size).resized(*clip.source_size)
         conf = np.where(tracks.state == NONE, 0.0, np.where(tracks.visible, 0.8, 0.4)).astype(np.float32)
         return PointTracks(tracks.xy, tracks.state, queries.object, clip.source_size, conf=conf)
@@ -114,7 +143,7 @@ class CoTrackerSeeder:
                 if _is_out_of_memory(child.returncode, said_last):
                     raise GenmojoError("budget", "CoTracker ran out of memory, or the system ended it",
                                        str(self._checkout),
-                                       "close other programs, or use a shorter or smaller clip")  # fmt: skip
+                                       "close other programs, allow more memory, or use a smaller clip")  # fmt: skip
                 last = said_last.splitlines()[-1:] or [f"exit {child.returncode}"]
                 raise GenmojoError("missing_package", f"CoTracker stopped: {last[0][:300]}", str(self._checkout),
                                    "check checkout, checkpoint and memory")  # fmt: skip

@@ -22,9 +22,10 @@ from genmojo_core.store.npz import read_arrays, write_arrays
 def main(arguments: Sequence[str]) -> int:
     """Track one window; 0 when the answer is written."""
     asked, answer, checkout, checkpoint, hub, memory = arguments
-    _limit_memory(float(memory))
     import torch
 
+    if not torch.cuda.is_available():  # a GPU's driver reserves address space that is no memory
+        _limit_memory(float(memory))
     arrays = read_arrays(asked)
     video = torch.from_numpy(np.array(arrays["video"])).permute(0, 3, 1, 2)[None].float()  # (1, T, 3, H, W) 0..255
     queries = torch.from_numpy(np.array(arrays["queries"], np.float32))[None]  # (1, N, 3) t, x, y

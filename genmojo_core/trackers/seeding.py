@@ -233,7 +233,8 @@ def make(name: str, path: str | Path | None = None, **options: str) -> Seeder:
 
     Args:
         name: one of NAMES. path: the scene.h5 of "scene", the file of "file", the checkout of "cotracker".
-        options: of "cotracker": checkpoint, a path; consent, "yes" for models from torch.hub.
+        options: of "cotracker": checkpoint, a path; consent, "yes" for models from torch.hub; window, frames at once;
+            memory, GiB that it may take.
     Raises GenmojoError("argument") for what is missing.
     """
     if name == "optical":
@@ -246,10 +247,12 @@ def make(name: str, path: str | Path | None = None, **options: str) -> Seeder:
         return SceneSeeder(path)
     if name == "file":
         return FileSeeder(path)
-    from genmojo_core.trackers.cotracker import CoTrackerSeeder
+    from genmojo_core.trackers.cotracker import CoTrackerSeeder, Limits
 
+    wanted = {"window": (int, options.get("window")), "memory_gib": (float, options.get("memory"))}
+    limits = Limits(**{key: kind(text) for key, (kind, text) in wanted.items() if text})
     checkpoint = Path(options["checkpoint"]) if options.get("checkpoint") else None
-    return CoTrackerSeeder(Path(path), checkpoint, consent=options.get("consent") == "yes")
+    return CoTrackerSeeder(Path(path), checkpoint, limits, consent=options.get("consent") == "yes")
 
 
 def merged(tracks: PointTracks, queries: Queries) -> PointTracks:

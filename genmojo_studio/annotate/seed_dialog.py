@@ -5,9 +5,11 @@ What a tracker finds is a proposal: places and states that a person gave are nev
 
 from __future__ import annotations
 
+import datetime
 from collections.abc import Callable
 from pathlib import Path
 
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QButtonGroup,
     QCheckBox,
@@ -22,6 +24,7 @@ from PySide6.QtWidgets import (
     QProgressBar,
     QPushButton,
     QRadioButton,
+    QSpinBox,
     QVBoxLayout,
     QWidget,
 )
@@ -29,6 +32,7 @@ from PySide6.QtWidgets import (
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.npz import write_tracks
 from genmojo_core.trackers import seeding
+from genmojo_core.trackers.cotracker import WINDOWS, machine_gib
 from genmojo_core.tracks.supervision import said_by_people
 from genmojo_studio.annotate import hand_masks
 from genmojo_studio.annotate.scene_job import SUFFIX, Forecast, SceneJob
@@ -38,6 +42,7 @@ from genmojo_studio.settings import Settings
 from genmojo_studio.translate import decimal, fault, tr
 
 MINUTES = (1, 2, 5, 10)
+_TERMS = "https://creativecommons.org/licenses/by-nc/4.0/"
 
 
 class SeedDialog(QDialog):
@@ -183,8 +188,19 @@ class SeedDialog(QDialog):
         form.addRow(tr("From"), self.origin)
         form.addRow(tr("Source"), self.checkout)
         form.addRow(tr("Weights"), self.weights)
+        self.window = QSpinBox(minimum=WINDOWS[0], maximum=WINDOWS[1], suffix=tr(" frames"))
+        self.memory = QSpinBox(minimum=1, maximum=4096, suffix=tr(" GiB"))
+        self.window.setValue(int(self._settings.text("cotracker/window", "64")))
+        self.memory.setValue(int(self._settings.text("cotracker/memory", f"{0.8 * machine_gib():.0f}")))
+        form.addRow(tr("At once"), self.window)
+        form.addRow(tr("Memory"), self.memory)
+        terms = tr('<a href="{link}">Licence of CoTracker\'s code and weights</a>: CC BY-NC 4.0').format(link=_TERMS)
+        licence = QLabel(terms, openExternalLinks=True)
+        licence.setTextInteractionFlags(Qt.TextInteractionFlag.TextBrowserInteraction)
+        form.addRow(licence)
         form.addRow(self.download)
         form.addRow(self.consent)
+        self.consent.setChecked(bool(self._settings.text("cotracker/licence")))
 
         def show_origin() -> None:
             hub = bool(self.origin.currentData())
@@ -244,14 +260,20 @@ class SeedDialog(QDialog):
         if not self.consent.isChecked():
             self.note.setText(tr("CoTracker's licence has to be agreed to first."))
             return False
+        return tracker.seed_by(self._cotracker(), self.objects())
+
+    def _cotracker(self) -> seeding.Seeder:
+        """CoTracker as it was chosen; what was chosen and agreed to is remembered. Raises GenmojoError."""
+        self._settings.put("cotracker/licence", datetime.date.today().isoformat())
+        limits = {"window": str(self.window.value()), "memory": str(self.memory.value())}
+        for key, text in limits.items():
+            self._settings.put(f"cotracker/{key}", text)
         hub = str(self.origin.currentData())
         if hub:
-            consent = "yes" if self.download.isChecked() else ""
-            return tracker.seed_by(seeding.make("cotracker", hub, consent=consent), self.objects())
+            return seeding.make("cotracker", hub, consent="yes" if self.download.isChecked() else "", **limits)
         self._settings.put("cotracker/checkout", self.checkout.text())
         self._settings.put("cotracker/weights", self.weights.text())
-        made = seeding.make("cotracker", self.checkout.text() or None, checkpoint=self.weights.text())
-        return tracker.seed_by(made, self.objects())
+        return seeding.make("cotracker", self.checkout.text() or None, checkpoint=self.weights.text(), **limits)
 
     def _optimise(self) -> bool:
         """Optimise a scene from what people said: points placed and accepted, masks cut out by hand."""

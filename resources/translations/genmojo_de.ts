@@ -1124,6 +1124,14 @@
       <translation>Gewichte</translation>
     </message>
     <message>
+      <source>At once</source>
+      <translation>Auf einmal</translation>
+    </message>
+    <message>
+      <source>Memory</source>
+      <translation>Speicher</translation>
+    </message>
+    <message>
       <source>npz file</source>
       <translation>npz-Datei</translation>
     </message>
@@ -1178,6 +1186,18 @@
     <message>
       <source>the last scene of this project, at once</source>
       <translation>die letzte Szene dieses Projekts, sofort</translation>
+    </message>
+    <message>
+      <source> frames</source>
+      <translation> Bilder</translation>
+    </message>
+    <message>
+      <source> GiB</source>
+      <translation> GiB</translation>
+    </message>
+    <message>
+      <source>&lt;a href="{link}"&gt;Licence of CoTracker's code and weights&lt;/a&gt;: CC BY-NC 4.0</source>
+      <translation>&lt;a href="{link}"&gt;Lizenz von CoTrackers Quelltext und Gewichten&lt;/a&gt;: CC BY-NC 4.0</translation>
     </message>
     <message>
       <source>CoTracker's licence has to be agreed to first.</source>
@@ -2210,10 +2230,6 @@
     <message>
       <source>ms</source>
       <translation>ms</translation>
-    </message>
-    <message>
-      <source>Memory</source>
-      <translation>Speicher</translation>
     </message>
     <message>
       <source>MB</source>
@@ -6686,6 +6702,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>exportieren Sie es noch einmal</translation>
     </message>
     <message>
+      <source>a window of {window} frames and {memory_gib:g} GiB are no limits</source>
+      <translation>ein Fenster von {window} Bildern und {memory_gib:g} GiB sind keine Grenzen</translation>
+    </message>
+    <message>
+      <source>give {value} to {value_2} frames and GiB from 0</source>
+      <translation>{value} bis {value_2} Bilder und GiB ab 0 angeben</translation>
+    </message>
+    <message>
       <source>gave tracks {shape} for {shape_2}</source>
       <translation>ergab Spuren {shape} für {shape_2}</translation>
     </message>
@@ -6730,8 +6754,8 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>CoTracker ging der Speicher aus, oder das System hat es beendet</translation>
     </message>
     <message>
-      <source>close other programs, or use a shorter or smaller clip</source>
-      <translation>schließen Sie andere Programme, oder nehmen Sie einen kürzeren oder kleineren Clip</translation>
+      <source>close other programs, allow more memory, or use a smaller clip</source>
+      <translation>andere Programme schließen, mehr Speicher erlauben oder einen kleineren Clip nehmen</translation>
     </message>
     <message>
       <source>has no masks, and points are tracked inside them</source>

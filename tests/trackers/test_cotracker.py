@@ -13,7 +13,7 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.npz import read_arrays, write_arrays
 from genmojo_core.trackers import cotracker_process
-from genmojo_core.trackers.cotracker import CoTrackerSeeder, Limits, in_windows
+from genmojo_core.trackers.cotracker import CoTrackerSeeder, Limits, in_windows, machine_gib
 from genmojo_core.trackers.seeding import Queries, make
 from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE
 
@@ -177,3 +177,25 @@ def test_what_is_missing_is_said(tmp_path: Path, checkout: tuple[Path, Path]) ->
         CoTrackerSeeder(checkout[0], tmp_path / "none.pth")
     with pytest.raises(GenmojoError, match="agree first"):
         make("cotracker", "hub:cotracker3_offline")
+
+
+def test_where_memory_runs_out_smaller_windows_are_tried(checkout: tuple[Path, Path]) -> None:
+    predictor = checkout[0] / "cotracker" / "predictor.py"
+    greedy = STAND_IN.replace("B, T, C, H, W = video.shape", "B, T, C, H, W = video.shape\n"
+                              "        if T > 16:\n            raise MemoryError(T)")  # fmt: skip
+    predictor.write_text(greedy)
+    queries = Queries(np.array([0]), np.array([[20.0, 10.0]]), np.array([1]))
+    found = CoTrackerSeeder(*checkout, Limits(window=32)).seed(red_clip(20), queries)
+    assert found.xy[0, 10] == pytest.approx((20 + 40, 10 + 20), abs=1e-3)
+    predictor.write_text(greedy.replace("T > 16", "T > 1"))
+    with pytest.raises(GenmojoError, match="ran out of memory"):
+        CoTrackerSeeder(*checkout, Limits(window=16)).seed(red_clip(20), queries)
+
+
+def test_limits_are_checked_and_fit_the_machine() -> None:
+    assert 0 < Limits().memory_gib <= machine_gib()
+    for wrong in ({"window": 4}, {"window": 100_000}, {"memory_gib": -1.0}, {"memory_gib": float("nan")}):
+        with pytest.raises(GenmojoError, match="no limits"):
+            Limits(**wrong)
+    with pytest.raises(GenmojoError, match="no limits"):
+        make("cotracker", "hub:cotracker3_offline", consent="yes", window="3")
