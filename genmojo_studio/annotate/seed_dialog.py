@@ -188,11 +188,11 @@ class SeedDialog(QDialog):
         form.addRow(tr("From"), self.origin)
         form.addRow(tr("Source"), self.checkout)
         form.addRow(tr("Weights"), self.weights)
-        self.window = QSpinBox(minimum=WINDOWS[0], maximum=WINDOWS[1], suffix=tr(" frames"))
+        self.at_once = QSpinBox(minimum=WINDOWS[0], maximum=WINDOWS[1], suffix=tr(" frames"))
         self.memory = QSpinBox(minimum=1, maximum=4096, suffix=tr(" GiB"))
-        self.window.setValue(int(self._settings.text("cotracker/window", "64")))
+        self.at_once.setValue(int(self._settings.text("cotracker/window", "64")))
         self.memory.setValue(int(self._settings.text("cotracker/memory", f"{0.8 * machine_gib():.0f}")))
-        form.addRow(tr("At once"), self.window)
+        form.addRow(tr("At once"), self.at_once)
         form.addRow(tr("Memory"), self.memory)
         terms = tr('<a href="{link}">Licence of CoTracker\'s code and weights</a>: CC BY-NC 4.0').format(link=_TERMS)
         licence = QLabel(terms, openExternalLinks=True)
@@ -265,7 +265,7 @@ class SeedDialog(QDialog):
     def _cotracker(self) -> seeding.Seeder:
         """CoTracker as it was chosen; what was chosen and agreed to is remembered. Raises GenmojoError."""
         self._settings.put("cotracker/licence", datetime.date.today().isoformat())
-        limits = {"window": str(self.window.value()), "memory": str(self.memory.value())}
+        limits = {"window": str(self.at_once.value()), "memory": str(self.memory.value())}
         for key, text in limits.items():
             self._settings.put(f"cotracker/{key}", text)
         hub = str(self.origin.currentData())
