@@ -80,6 +80,8 @@ def _project(path: Path) -> dict[str, Any]:
     loaded = project_file.load(path)
     rows, figures = loaded.log.rows, clip_figures(loaded.annotation)
     consent = figures["consent"] == "yes"
+    if not consent:
+        figures.pop("people", None)
     return {"clip": loaded.info.name, "size": list(loaded.info.size), **figures,
             "edits": sum(row.verb == "do" for row in rows),
             "checkpoints": [row.title for row in rows if row.verb == "checkpoint"],

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import IO
 
@@ -188,6 +188,22 @@ class Project:
         """A whole project file elsewhere, with what could not be written here. Raises GenmojoError("io")."""
         self.wait()
         project_file.copy(self.path, Path(path), self._writer.unsaved() if self._writer is not None else [])
+
+    def unsaved(self) -> int:
+        """How many transactions could not be written so far."""
+        return 0 if self._writer is None else self._writer.failing()
+
+    def retry(self) -> None:
+        """Try again to write what could not be written."""
+        if self._writer is not None:
+            self._writer.put([])
+
+    def moved_clip(self, path: str | Path) -> None:
+        """The clip lies elsewhere by now. Raises GenmojoError("io") if the project is read only."""
+        self._check_writable()
+        self.info = replace(self.info, path=str(path))
+        if self._writer is not None:
+            self._writer.put([("UPDATE clip SET value = ? WHERE key = 'path'", (str(path),))])
 
     def close(self) -> None:
         """Write what waits, leave one file, release the lock."""

@@ -77,6 +77,10 @@ class Writer:
         """Statements that could not be written so far."""
         return [statement for job in tuple(self._unsaved) for statement in job.statements]
 
+    def failing(self) -> int:
+        """How many transactions could not be written so far."""
+        return len(self._unsaved)
+
     def close(self) -> None:
         """Write what waits and stop."""
         self._jobs.put(None)

@@ -140,7 +140,7 @@ def snapshot_statements(rows: int, data: bytes) -> list[Statement]:
              "'snapshot:%' ORDER BY seq DESC LIMIT 3)", ())]  # fmt: skip
 
 
-def payload_without(payload: bytes, row: Row, people: set[str]) -> bytes:
+def payload_without(payload: bytes, row: Row) -> bytes:
     """An edit's data with persons and reviewers of tracks left out."""
     if row.verb != "do":
         return payload
@@ -151,7 +151,7 @@ def payload_without(payload: bytes, row: Row, people: set[str]) -> bytes:
     edit = decode_edit(payload, row.kind, row.title, row.frame, row.track)
     changes = tuple(replace(c, before=bare(c.before), after=bare(c.after)) if isinstance(c, TrackChange) else c
                     for c in edit.changes)  # fmt: skip
-    return encode_edit(replace(edit, changes=changes)) if people else payload
+    return encode_edit(replace(edit, changes=changes))
 
 
 def copy(path: Path, target: Path, more: Sequence[Statement] = ()) -> None:

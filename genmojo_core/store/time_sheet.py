@@ -64,7 +64,8 @@ def write_time_sheet(rows: Sequence[Row], consent: str, path: str | Path) -> Non
 
 
 def without_people(path: str | Path, target: str | Path) -> None:
-    """A copy of a project in which no person is named and no time of day stands; its chain of hashes is made anew.
+    """A copy of a project in which no person is named, no time of day stands and no path (it may hold an account's
+    name); its chain of hashes is made anew. What people wrote into notes stays.
 
     Raises GenmojoError("io", "format", "corrupt").
     """
@@ -76,7 +77,7 @@ def without_people(path: str | Path, target: str | Path) -> None:
         chain = b""
         for *columns, payload in connection.execute(f"SELECT {COLUMNS}, payload FROM edits ORDER BY seq").fetchall():
             bare = replace(Row(*columns), who="", at=str(columns[COLUMNS.split(", ").index("at")])[:10])
-            clean = project_file.payload_without(payload, bare, people)
+            clean = project_file.payload_without(payload, bare)
             chain = bare.hash(clean, chain)
             connection.execute("UPDATE edits SET who = '', at = ?, payload = ?, hash = ? WHERE seq = ?",
                                (bare.at, clean, chain, bare.seq))  # fmt: skip
@@ -86,5 +87,6 @@ def without_people(path: str | Path, target: str | Path) -> None:
                 for name in people:
                     data = data.replace(f'"{name}"', '""')
                 connection.execute(f"UPDATE {table} SET data = ? WHERE id = ?", (data, number))
+        connection.execute("UPDATE clip SET value = ? WHERE key = 'path'", (Path(loaded.info.path).name,))
         connection.execute("COMMIT")
         connection.execute("VACUUM")

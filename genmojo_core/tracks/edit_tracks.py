@@ -78,7 +78,7 @@ def approve(annotation: Annotation, track: int, reviewer: str) -> Edit:
         raise GenmojoError("argument", f"track {track} says nothing about frame {blank[0]} and {len(blank) - 1} others",
                            hint="annotate them first")  # fmt: skip
     return update_track(annotation, track, say("approve"), 0, review="approved", reviewer=reviewer, reason="",
-                        run=None, note="", locked=True)  # fmt: skip
+                        run=None, locked=True)  # fmt: skip
 
 
 def reject(annotation: Annotation, track: int, reviewer: str, note: str) -> Edit:

@@ -14,6 +14,7 @@ from genmojo_studio.annotate.accepting import Accepting
 from genmojo_studio.annotate.actions import KEYED
 from genmojo_studio.annotate.dialogs import Dialogs
 from genmojo_studio.annotate.going import Going
+from genmojo_studio.annotate.keeping import Keeping
 from genmojo_studio.annotate.object_verbs import ObjectVerbs
 from genmojo_studio.annotate.placing import Placing
 from genmojo_studio.annotate.session import TRAILS
@@ -81,6 +82,8 @@ class Hands:
         self.objects = ObjectVerbs(workspace)
         self.placing = Placing(workspace, self.going)
         self.dialogs = Dialogs(workspace)
+        self.keeping = Keeping(self._s, workspace)
+        self.keeping.troubled.connect(workspace.bar.show_trouble)
         self.accepting = Accepting(self._s, workspace.screen_link, workspace.work.tracker)
         w = workspace
         w.canvas.picked.connect(self._s.select_track)
@@ -170,6 +173,9 @@ class Hands:
             "file.new_clip": lambda: w.table.trigger("file.open_clip"),
             "file.import": self.dialogs.import_tracks,
             "file.export": self.dialogs.export_tracks,
+            "file.copy": self.keeping.save_copy,
+            "file.backup": self._open_backup,
+            "file.folder": self.keeping.show_folder,
             "file.tour": w.start_tour,
             "move.panel": w.next_panel,
             "move.panel_back": lambda: w.next_panel(-1),
@@ -312,6 +318,12 @@ class Hands:
         verb(self._s)
         if self._s.track is not None and self._s.annotation.revision != before:
             self._w.work.tracker.after_key(self._s.track, self._s.frame, self._s.project.log.head)
+
+    def _open_backup(self) -> None:
+        path = self.keeping.backup()
+        if path is not None:
+            for _ in self._w.opening(path):
+                continue
 
     def _fixed(self) -> None:
         track = self._s.track

@@ -206,6 +206,12 @@ class StepBar(QWidget):
         self.saved.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         row.addWidget(self.saved)
 
+    def show_trouble(self, why: str) -> None:
+        """Edits wait for the disk, and why; "" when they are on it."""
+        self.saved.setText(tr("NOT SAVED") if why else tr("saved"))
+        self.saved.setToolTip(why)
+        self.saved.setStyleSheet("font-weight: bold; color: #e5484d;" if why else "")
+
     def show_step(self, place: int, missing: list[str]) -> None:
         """Mark a step as the current one; `missing` says per step what it still lacks."""
         for n, (button, text) in enumerate(zip(self.buttons, missing, strict=True)):

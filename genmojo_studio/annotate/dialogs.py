@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,7 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog, QMenu
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store import project_file
+from genmojo_core.store.project_log import Row
 from genmojo_core.tracks import edit_tracks
 from genmojo_core.tracks.annotation import REASONS
 from genmojo_studio import notify
@@ -72,8 +74,7 @@ class Dialogs:
     def checkpoint(self) -> None:
         """A name for what stands now."""
         name, given = QInputDialog.getText(self._w, tr("Name this moment"), tr("Name"))
-        if given and name.strip():
-            self._try(lambda: self._s.project.checkpoint(name.strip()[:80]))
+        if given and name.strip() and self._try(lambda: self._s.project.checkpoint(name.strip()[:80])):
             self._s.said.emit(tr("Named: {name}").format(name=name))
 
     def history(self) -> None:
@@ -86,9 +87,7 @@ class Dialogs:
         title, chosen = QInputDialog.getItem(self._w, tr("Named moments"), tr("Go back to"), titles, 0, False)
         if chosen:
             row = rows[::-1][titles.index(title)]
-            step = self._s.project.go_to(row.parent)
-            if step is not None:
-                self._s.show_step(step, tr("Back at: ") + row.title)
+            self._try(lambda: self._go_to(row))
 
     def merge(self) -> None:
         """Compare with a second annotator's project, and merge it; a project both began from makes it three-way."""
@@ -120,9 +119,16 @@ class Dialogs:
         """Tracks into a file."""
         take_tracks.export_tracks(self._w)
 
-    def _try(self, work: object) -> None:
+    def _go_to(self, row: Row) -> None:
+        step = self._s.project.go_to(row.parent)
+        if step is not None:
+            self._s.show_step(step, tr("Back at: ") + row.title)
+
+    def _try(self, work: Callable[[], object]) -> bool:
+        """Whether it worked; faults are told."""
         try:
-            if callable(work):
-                work()
+            work()
         except GenmojoError as error:
             notify.tell(error, self._w)
+            return False
+        return True

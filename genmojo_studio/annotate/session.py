@@ -57,6 +57,7 @@ class Session(QObject):
     edited = Signal(object)  # Touched
     selected = Signal()
     said = Signal(str)  # a sentence for the person
+    unsaved = Signal(object)  # GenmojoError: an edit could not be written; it waits
     stored = Signal(float)  # an edit is on the disk, seconds after it was made
     settings_changed = Signal()
     judged = Signal(int, int, bool)  # track, frame: a person corrected it (True) or accepted it
@@ -84,7 +85,7 @@ class Session(QObject):
         self._ahead: list[tuple[int, tuple[int, int]]] = []  # those that were gone back from
         self.annotation.listeners.append(self._touched)
         project.saved = lambda _seq, seconds: self.stored.emit(seconds)
-        project.failed = lambda error: self.said.emit(fault(error))
+        project.failed = self.unsaved.emit
         self._unsubscribe = state.subscribe(self._frame_moved, "frame")
         objects = self.annotation.chosen_objects()
         if objects:
@@ -272,24 +273,40 @@ class Session(QObject):
         self.frame_changed.emit(self.frame)
 
 
+def _take_moved(project: Project, cache: FrameCache, clip: Path) -> None:
+    """Note where the clip lies. Raises GenmojoError("value") if it is another one, with everything closed."""
+    wanted, found = (project.info.frames, project.info.size), (cache.count, tuple(cache.size))
+    if wanted != found:
+        cache.close()
+        project.close()
+        raise GenmojoError("value", f"has {found[0]} frames of {found[1]}, the project's clip has {wanted[0]} of "
+                           f"{wanted[1]}", str(clip), "choose the clip that was annotated")  # fmt: skip
+    if not project.read_only:
+        project.moved_clip(clip.absolute())
+
+
 def project_path(clip_path: Path) -> Path:
     """Where the project of a clip lies: in the app's own folder, named after the clip and where it is."""
     where = hashlib.sha256(str(clip_path.absolute()).encode()).hexdigest()[:8]
     return data_folder() / "projects" / f"{clip_path.absolute().name}-{where}.genmojo"
 
 
-def open_session(state: AppState, path: Path, person: str, project_file: Path | None = None) -> Session:
-    """The session of a clip or of a project file.
+def open_session(
+    state: AppState, path: Path, person: str, project_file: Path | None = None, clip: Path | None = None
+) -> Session:
+    """The session of a clip or of a project file; `clip`: where its clip lies by now, if it was moved.
 
     Raises GenmojoError as `FrameCache`, `Project.open` and `Project.create`.
     """
     if path.suffix == ".genmojo":
         project = Project.open(path, person)
         try:
-            cache = FrameCache(project.info.path)
+            cache = FrameCache(str(clip or project.info.path))
         except GenmojoError:
             project.close()
             raise
+        if clip is not None:
+            _take_moved(project, cache, clip)
     else:
         cache = FrameCache(path)
         file = project_file or project_path(path)

@@ -29,6 +29,7 @@ from genmojo_studio.annotate.button_panel import ButtonPanel, StepBar
 from genmojo_studio.annotate.canvas import Canvas, Tool
 from genmojo_studio.annotate.focus import KeyboardManners, give_back
 from genmojo_studio.annotate.held import HeldKeys
+from genmojo_studio.annotate.keeping import found_clip
 from genmojo_studio.annotate.objects_page import ObjectsPage
 from genmojo_studio.annotate.play_panel import PlayPanel
 from genmojo_studio.annotate.points_page import PointsPage
@@ -53,10 +54,7 @@ _LOW = 850  # pixels of height
 
 
 class AnnotateWorkspace(QMainWindow):
-    """Visualisation in the middle; buttons, information and video play around it.
-
-    Attributes that hold the clip's parts (`canvas`, `pages`, ...) exist once a clip is open.
-    """
+    """Visualisation in the middle; buttons, information and video play around it. Parts exist once a clip is open."""
 
     canvas: Canvas
     strip: Strip
@@ -113,12 +111,11 @@ class AnnotateWorkspace(QMainWindow):
     # ---- opening and closing
 
     def opening(self, path: Path) -> Iterator[None]:
-        """Open a clip or a project file, part by part; the one open now is closed, with everything stored.
-
-        Faults are told.
-        """
+        """Open a clip or a project file, part by part; the one open now is closed. Faults are told."""
         try:
-            session = open_session(self.state, path, self.person())
+            if not self._may_close():
+                return
+            session = open_session(self.state, path, self.person(), clip=found_clip(path, self))
         except GenmojoError as error:
             notify.tell(error, self)
             return
@@ -231,10 +228,16 @@ class AnnotateWorkspace(QMainWindow):
                 QTimer.singleShot(0, self.restore_layout)
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """Nothing is asked: everything is stored already."""
+        """Nothing is asked, everything is stored already; unless the disk takes nothing."""
+        if not self._may_close():
+            event.ignore()
+            return
         self.close_clip()
         self._end_tour()
         event.accept()
+
+    def _may_close(self) -> bool:
+        return self.session is None or self.hands is None or self.hands.keeping.may_close()
 
     # ---- steps and layout
 

@@ -40,6 +40,14 @@
       <translation>Schrittweite</translation>
     </message>
     <message>
+      <source>NOT SAVED</source>
+      <translation>NICHT GESPEICHERT</translation>
+    </message>
+    <message>
+      <source>saved</source>
+      <translation>gespeichert</translation>
+    </message>
+    <message>
       <source>This step is done.</source>
       <translation>Dieser Schritt ist fertig.</translation>
     </message>
@@ -96,12 +104,12 @@
       <translation>Noch kein Stand hat einen Namen (Strg+S).</translation>
     </message>
     <message>
-      <source>Named: {name}</source>
-      <translation>Benannt: {name}</translation>
-    </message>
-    <message>
       <source>Back at: </source>
       <translation>Zurück bei: </translation>
+    </message>
+    <message>
+      <source>Named: {name}</source>
+      <translation>Benannt: {name}</translation>
     </message>
     <message>
       <source>Dope sheet: states of all points over time</source>
@@ -194,6 +202,70 @@
     <message>
       <source>likeness (NCC)</source>
       <translation>Ähnlichkeit (NCC)</translation>
+    </message>
+    <message>
+      <source>The clip was moved</source>
+      <translation>Der Clip wurde verschoben</translation>
+    </message>
+    <message>
+      <source>A folder…</source>
+      <translation>Ein Ordner…</translation>
+    </message>
+    <message>
+      <source>A video…</source>
+      <translation>Ein Video…</translation>
+    </message>
+    <message>
+      <source>Save a copy of the project</source>
+      <translation>Kopie des Projekts speichern</translation>
+    </message>
+    <message>
+      <source>Backup copies</source>
+      <translation>Sicherungskopien</translation>
+    </message>
+    <message>
+      <source>Open as a new project</source>
+      <translation>Als neues Projekt öffnen</translation>
+    </message>
+    <message>
+      <source>The clip's folder</source>
+      <translation>Ordner des Clips</translation>
+    </message>
+    <message>
+      <source>Not everything is saved</source>
+      <translation>Nicht alles ist gespeichert</translation>
+    </message>
+    <message>
+      <source>Try again</source>
+      <translation>Erneut versuchen</translation>
+    </message>
+    <message>
+      <source>Save a copy…</source>
+      <translation>Kopie speichern…</translation>
+    </message>
+    <message>
+      <source>Lose them</source>
+      <translation>Verwerfen</translation>
+    </message>
+    <message>
+      <source>There is no backup yet: naming a moment (Ctrl+S) makes one.</source>
+      <translation>Es gibt noch keine Sicherung: einen Moment zu benennen (Strg+S) macht eine.</translation>
+    </message>
+    <message>
+      <source>{name} is not at {path} any more. Where is it?</source>
+      <translation>{name} liegt nicht mehr unter {path}. Wo ist es?</translation>
+    </message>
+    <message>
+      <source>Saved: {name}</source>
+      <translation>Gespeichert: {name}</translation>
+    </message>
+    <message>
+      <source>The clip's video</source>
+      <translation>Video des Clips</translation>
+    </message>
+    <message>
+      <source>{n} edits could not be written. Free some space and try again, or save a copy elsewhere.</source>
+      <translation>{n} Änderungen konnten nicht geschrieben werden. Platz schaffen und erneut versuchen, oder eine Kopie anderswo speichern.</translation>
     </message>
     <message>
       <source>Log and statistics</source>
@@ -1834,10 +1906,6 @@
     <message>
       <source>read only</source>
       <translation>nur lesen</translation>
-    </message>
-    <message>
-      <source>saved</source>
-      <translation>gespeichert</translation>
     </message>
     <message>
       <source>Information</source>
@@ -4272,6 +4340,30 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>The same formats.</source>
       <translation>Dieselben Formate.</translation>
+    </message>
+    <message>
+      <source>Save a copy of the project…</source>
+      <translation>Kopie des Projekts speichern…</translation>
+    </message>
+    <message>
+      <source>To hand it over, or to keep it elsewhere.</source>
+      <translation>Zum Weitergeben oder um sie anderswo aufzubewahren.</translation>
+    </message>
+    <message>
+      <source>Open a backup copy…</source>
+      <translation>Sicherungskopie öffnen…</translation>
+    </message>
+    <message>
+      <source>As a new project; this one stays as it is.</source>
+      <translation>Als neues Projekt; dieses bleibt, wie es ist.</translation>
+    </message>
+    <message>
+      <source>Show the project's folder</source>
+      <translation>Ordner des Projekts zeigen</translation>
+    </message>
+    <message>
+      <source>Where the project of this clip lies.</source>
+      <translation>Wo das Projekt dieses Clips liegt.</translation>
     </message>
     <message>
       <source>Tour of the annotator</source>
@@ -6980,6 +7072,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>draw on the object too, or a box round it</source>
       <translation>zeichnen Sie auch auf das Objekt oder ein Rechteck darum</translation>
+    </message>
+    <message>
+      <source>has {found} frames of {found_2}, the project's clip has {wanted} of {wanted_2}</source>
+      <translation>hat {found} Bilder von {found_2}, der Clip des Projekts hat {wanted} von {wanted_2}</translation>
+    </message>
+    <message>
+      <source>choose the clip that was annotated</source>
+      <translation>den annotierten Clip wählen</translation>
     </message>
     <message>
       <source>give another file</source>
