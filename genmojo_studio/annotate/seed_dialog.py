@@ -9,7 +9,8 @@ import datetime
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QUrl
+from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import (
     QButtonGroup,
     QCheckBox,
@@ -194,9 +195,8 @@ class SeedDialog(QDialog):
         self.memory.setValue(int(self._settings.text("cotracker/memory", f"{0.8 * machine_gib():.0f}")))
         form.addRow(tr("At once"), self.at_once)
         form.addRow(tr("Memory"), self.memory)
-        terms = tr('<a href="{link}">Licence of CoTracker\'s code and weights</a>: CC BY-NC 4.0').format(link=_TERMS)
-        licence = QLabel(terms, openExternalLinks=True)
-        licence.setTextInteractionFlags(Qt.TextInteractionFlag.TextBrowserInteraction)
+        licence = QPushButton(tr("Its licence: CC BY-NC 4.0…"))
+        licence.clicked.connect(lambda: QDesktopServices.openUrl(QUrl(_TERMS)))
         form.addRow(licence)
         form.addRow(self.download)
         form.addRow(self.consent)

@@ -1204,6 +1204,10 @@
       <translation>Speicher</translation>
     </message>
     <message>
+      <source>Its licence: CC BY-NC 4.0…</source>
+      <translation>Ihre Lizenz: CC BY-NC 4.0…</translation>
+    </message>
+    <message>
       <source>npz file</source>
       <translation>npz-Datei</translation>
     </message>
@@ -1266,10 +1270,6 @@
     <message>
       <source> GiB</source>
       <translation> GiB</translation>
-    </message>
-    <message>
-      <source>&lt;a href="{link}"&gt;Licence of CoTracker's code and weights&lt;/a&gt;: CC BY-NC 4.0</source>
-      <translation>&lt;a href="{link}"&gt;Lizenz von CoTrackers Quelltext und Gewichten&lt;/a&gt;: CC BY-NC 4.0</translation>
     </message>
     <message>
       <source>CoTracker's licence has to be agreed to first.</source>
