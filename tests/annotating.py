@@ -51,3 +51,12 @@ def fill(workspace):
         found[track] = Proposal("still", xy, np.full(frames, VISIBLE, np.uint8), np.full(frames, 0.9, np.float32))
     session.do(keys.accept(session.annotation, found, TRACKER))
     session.select_track(next(iter(found)))
+
+
+def refine(workspace, each):
+    """Step 3 with `each` points per object, filled without a tracker, which rests from now on."""
+    choose_all(workspace)
+    place_points(workspace, each=each)
+    fill(workspace)
+    workspace.show_step(2)
+    workspace.work.tracker.close()

@@ -82,7 +82,8 @@ class Writer:
         return len(self._unsaved)
 
     def close(self) -> None:
-        """Write what waits and stop."""
+        """Write what waits, also what could not be written before, and stop."""
+        self.put([])
         self._jobs.put(None)
         self._thread.join()
 
@@ -110,8 +111,10 @@ class Writer:
                     for sql, values in job.statements:
                         connection.execute(sql, values)
         except sqlite3.Error as error:
+            kept = [job for job in jobs if job.statements]  # an attempt with nothing of its own leaves nothing behind
             with self._idle:
-                self._unsaved = jobs
+                self._waiting -= len(jobs) - len(kept)
+                self._unsaved = kept
                 self._idle.notify_all()
             self._tell(error)
             return

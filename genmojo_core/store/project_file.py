@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Literal
+from typing import Literal, TypeVar
 
 import numpy as np
 
@@ -23,6 +23,9 @@ from genmojo_core.tracks.edits import Edit, TrackChange
 
 _KEEP = 10  # newest backup copies; beyond them one a day is kept for _DAYS days
 _DAYS = 14
+
+
+_Found = TypeVar("_Found")
 
 
 @dataclass(frozen=True)
@@ -88,12 +91,21 @@ def create(path: Path, info: ClipInfo) -> None:
 
 def load(path: Path) -> Loaded:
     """The newest state of a project. Raises GenmojoError: "io", "format", "version", "corrupt"."""
+    return _read(path, lambda connection: _loaded(connection, path))
+
+
+def clip_of(path: Path) -> ClipInfo:
+    """The clip of a project, without its history. Raises as `load`."""
+    return _read(path, _clip_info)
+
+
+def _read(path: Path, read: Callable[[sqlite3.Connection], _Found]) -> _Found:
     if not path.is_file():
         raise GenmojoError("io", "does not exist or is no file", str(path), "check the name")
     with closing(connect_to_read(path)) as connection:
         check_file(connection, path)
         try:
-            return _loaded(connection, path)
+            return read(connection)
         except (sqlite3.DatabaseError, KeyError, ValueError, TypeError) as error:
             raise GenmojoError("corrupt", "holds a history that does not fit together", str(path),
                                "open a backup copy") from error  # fmt: skip
@@ -186,12 +198,16 @@ def backups(path: Path) -> list[Path]:
     return sorted(path.with_name(path.name + ".backups").glob("*.genmojo"), reverse=True)
 
 
-def _loaded(connection: sqlite3.Connection, path: Path) -> Loaded:
+def _clip_info(connection: sqlite3.Connection) -> ClipInfo:
     about = dict(connection.execute("SELECT key, value FROM clip"))
     frames = connection.execute("SELECT number, seconds, sha256 FROM frames ORDER BY position").fetchall()
-    info = ClipInfo(about["name"], about["path"], (int(about["width"]), int(about["height"])),
+    return ClipInfo(about["name"], about["path"], (int(about["width"]), int(about["height"])),
                     np.array([f[0] for f in frames], np.int64), np.array([f[1] for f in frames], np.float64),
                     tuple(f[2] or "" for f in frames))  # fmt: skip
+
+
+def _loaded(connection: sqlite3.Connection, path: Path) -> Loaded:
+    info = _clip_info(connection)
     rows = [Row(*columns) for columns in connection.execute(f"SELECT {COLUMNS} FROM edits ORDER BY seq")]
     if [row.seq for row in rows] != list(range(1, len(rows) + 1)):
         raise GenmojoError("corrupt", "lacks rows of its history", str(path), "open a backup copy")

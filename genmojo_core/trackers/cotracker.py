@@ -36,8 +36,6 @@ LICENCE = (
 HUB = "hub:"  # instead of a checkout: "hub:cotracker3_offline", downloaded by torch.hub; only with the user's consent
 _PROCESS = "genmojo_core.trackers.cotracker_process"
 _OVERLAP = 8  # frames two windows share
-
-
 WINDOWS = (2 * _OVERLAP, 512)  # least and most frames of a window
 
 

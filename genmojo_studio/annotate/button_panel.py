@@ -210,7 +210,9 @@ class StepBar(QWidget):
         """Edits wait for the disk, and why; "" when they are on it."""
         self.saved.setText(tr("NOT SAVED") if why else tr("saved"))
         self.saved.setToolTip(why)
-        self.saved.setStyleSheet("font-weight: bold; color: #e5484d;" if why else "")
+        self.saved.setProperty("role", "bad" if why else "dim")
+        for polish in (self.saved.style().unpolish, self.saved.style().polish):  # the theme looks at roles once
+            polish(self.saved)
 
     def show_step(self, place: int, missing: list[str]) -> None:
         """Mark a step as the current one; `missing` says per step what it still lacks."""

@@ -113,7 +113,7 @@ def found_clip(project: Path, parent: QWidget) -> Path | None:
     if project.suffix != ".genmojo":
         return None
     try:
-        info = project_file.load(project).info
+        info = project_file.clip_of(project)
     except GenmojoError:
         return None
     beside = project.parent / Path(info.path).name

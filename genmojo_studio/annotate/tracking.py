@@ -19,13 +19,14 @@ from genmojo_core.trackers.evidence import scene_of
 from genmojo_core.trackers.seeding import Queries, Seeder, merged, proposals
 from genmojo_core.trackers.solver import SolveAnswer, SolveRequest, TrackSolver
 from genmojo_core.tracks import keys, suspicion
-from genmojo_core.tracks.annotation import BY_TRACKER, KEY, TRACKER, Annotation, Cells, Proposal
+from genmojo_core.tracks.annotation import TRACKER, Proposal
 from genmojo_core.tracks.edits import join
 from genmojo_core.tracks.model import NONE
 from genmojo_core.tracks.suspicion import Evidence, Suspicion
 from genmojo_studio import notify
 from genmojo_studio.annotate.learnt import Learnt
 from genmojo_studio.annotate.seed_task import SeedTask, seedable, seeded_words
+from genmojo_studio.annotate.segments import by_rule, frames_between, is_key, within
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.background import Tasks
 from genmojo_studio.translate import fault, tr
@@ -185,12 +186,12 @@ class Tracking(QObject):
         if info is None:
             return
         span = None
-        if not _is_key(annotation, track, frame):
+        if not is_key(annotation, track, frame):
             start, end = annotation.segment(track, frame)
             anchor = start if start is not None else end
-            if anchor is None:
+            if anchor is None or by_rule(annotation, track, start, end):
                 return
-            span, frame = _between(annotation, start, end), anchor
+            span, frame = frames_between(annotation, start, end), anchor
         request = SolveRequest.of(annotation, info.object, (track, frame), anew=span is not None)
         if (np.count_nonzero(request.cells[request.tracks.index(track)].state)) > 1 or step is None:
             self._ask(request, _Key(track, frame, step), span)
@@ -208,9 +209,9 @@ class Tracking(QObject):
             return
         if anchor == frame and direction <= 0:  # on a key: what lies before it begins at the key before
             start = max((k for k in annotation.keys(track).tolist() if k < frame), default=None)
-        first, last = _between(annotation, start, end)
+        first, last = frames_between(annotation, start, end)
         span = {1: (frame, last), -1: (first, frame), 0: (first, last)}[direction]
-        if start is not None and end is not None and annotation.track(track).mode[start] != BY_TRACKER:
+        if by_rule(annotation, track, start, end):
             session.said.emit(tr("This segment is filled by line or hold; I changes that."))
             return
         info = annotation.tracks[track]
@@ -292,7 +293,7 @@ class Tracking(QObject):
             return
         self.busy_changed.emit("")
         if span is not None:
-            answer = _within(answer, span)
+            answer = within(answer, span)
         edit = answer.edit(self._session.annotation)
         if edit.changes:
             self._session.do(edit, key.step)
@@ -380,21 +381,3 @@ class Tracking(QObject):
         else:
             notify.tell(error)
         self.seeded.emit(0)
-
-
-def _is_key(annotation: Annotation, track: int, frame: int) -> bool:
-    return bool(annotation.cells(track, np.array([frame])).flags[0] & KEY)
-
-
-def _between(annotation: Annotation, start: int | None, end: int | None) -> tuple[int, int]:
-    """First and last frame of the segment between two keys, of the clip where there is none."""
-    return start if start is not None else 0, end if end is not None else annotation.frames - 1
-
-
-def _within(answer: SolveAnswer, span: tuple[int, int]) -> SolveAnswer:
-    """Only the frames first..last of an answer."""
-    found: dict[int, tuple[np.ndarray, Cells]] = {}
-    for track, (frames, cells) in answer.found.items():
-        inside = (frames >= span[0]) & (frames <= span[1])
-        found[track] = (frames[inside], Cells(*(a[inside] for a in cells.arrays())))
-    return SolveAnswer(answer.request, found)

@@ -16,8 +16,10 @@ import torch
 from genmojo_core.clip.clip import Clip
 from genmojo_core.effects.decide import ALL, NAMES
 from genmojo_core.events import Preview
+from genmojo_core.optimise import cost
 from genmojo_core.optimise import run as run_module
 from genmojo_core.optimise.cost import measured_costs, term_costs
+from genmojo_core.optimise.objective import Objective
 from genmojo_core.optimise.run import Run
 from tests.optimise.small_runs import small_clip, small_run
 
@@ -178,6 +180,17 @@ def test_a_loss_term_costs_what_its_weight_of_zero_saves_and_stays_as_it_was(who
     assert set(costs) == {"hull", "rigidity", "rotation"} and all(ms >= 0 for ms in costs.values())
     assert whole.objective.weights is weights
     assert all(p.grad is None for p in whole.scene.parameters())
+
+
+def test_the_cost_of_a_term_is_the_time_that_goes_with_its_weight(whole: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def seconds(objective: Objective, frames: list[int]) -> float:
+        """A clock without noise: a frame takes 5 ms, hull 2 ms and rigidity 1 ms more, rotation comes with rigidity."""
+        assert len(frames) == 1
+        return 0.005 + 0.002 * (objective.weights.hull > 0) + 0.001 * (objective.weights.rigidity > 0)
+
+    monkeypatch.setattr(cost, "_seconds", seconds)
+    costs = term_costs(whole.objective, [1, 2], ["hull", "rigidity", "rotation"])
+    assert costs == pytest.approx({"hull": 4.0, "rigidity": 2.0, "rotation": 0.0})
 
 
 def test_terms_of_no_weight_are_not_worked_out(whole: Run) -> None:

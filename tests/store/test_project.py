@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sqlite3
 import time
+from contextlib import closing
 from pathlib import Path
 
 import annotations
@@ -103,6 +104,24 @@ def test_what_a_tracker_answers_is_undone_with_the_key_it_answers(tmp_path: Path
     assert project.do(annotations.solution(project.annotation, 1, np.arange(24), rng), step=step) is None
     assert project.annotation.digest() == before
     project.close()
+
+
+def test_what_could_not_be_written_is_counted_once_and_written_at_the_end(tmp_path: Path) -> None:
+    project = begun(tmp_path / "p.genmojo")
+    project.wait()
+    with closing(sqlite3.connect(tmp_path / "p.genmojo")) as connection, connection:
+        connection.execute("CREATE TRIGGER full BEFORE INSERT ON edits BEGIN SELECT RAISE(ABORT, 'disk is full'); END")
+    project.do(keys.set_key(project.annotation, 1, 5, (10.0, 20.0)))
+    for _ in range(3):
+        assert not project.wait(60)
+        assert project.unsaved() == 1
+        project.retry()
+    assert not project.wait(60)
+    with closing(sqlite3.connect(tmp_path / "p.genmojo")) as connection, connection:
+        connection.execute("DROP TRIGGER full")
+    project.close()
+    assert project_file.load(tmp_path / "p.genmojo").annotation.track(1).xy[5].tolist() == [10.0, 20.0]
+    assert project_file.clip_of(tmp_path / "p.genmojo").frames == project.annotation.frames
 
 
 def test_a_late_answer_is_not_taken_back_with_what_was_done_meanwhile(tmp_path: Path) -> None:

@@ -101,6 +101,7 @@ def test_the_mode_tracker_tracks_and_open_ends_have_no_choice(workspace, qtbot):
     tracked = session.annotation.track(track).xy.copy()
     for mode in (BY_LINE, BY_HOLD, BY_TRACKER):
         QTest.keyClick(workspace.canvas, Qt.Key.Key_I)
+        assert (workspace.work.tracker.pending > 0) == (mode == BY_TRACKER), "a line or a hold needs no solver"
         settled(workspace, qtbot)
         assert session.annotation.track(track).mode[0] == mode
     np.testing.assert_allclose(session.annotation.track(track).xy, tracked, atol=0.5)

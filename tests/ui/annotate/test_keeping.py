@@ -28,6 +28,15 @@ def free_disk(workspace):
         connection.execute("DROP TRIGGER full")
 
 
+def place_on_full_disk(workspace, qtbot):
+    """Points that cannot be written, and the word that they are not."""
+    choose_all(workspace)
+    workspace.session.project.wait()
+    fill_disk(workspace)
+    place_points(workspace, each=1)
+    qtbot.waitUntil(lambda: workspace.bar.saved.text() == "NOT SAVED", timeout=60_000)
+
+
 def answer(texts, seen):
     """Press buttons of the questions that will be asked, one after the other."""
 
@@ -45,15 +54,9 @@ def answer(texts, seen):
     QTimer.singleShot(50, press)
 
 
-def test_closing_asks_while_edits_are_not_on_the_disk(workspace, qtbot, tmp_path, monkeypatch):
-    choose_all(workspace)
-    workspace.session.project.wait()
-    fill_disk(workspace)
-    place_points(workspace, each=1)
-    qtbot.waitUntil(lambda: workspace.bar.saved.text() == "NOT SAVED", timeout=60_000)
+def test_closing_asks_while_edits_are_not_on_the_disk(workspace, qtbot):
+    place_on_full_disk(workspace, qtbot)
     edits, seen = len(workspace.session.annotation.tracks), []
-    copy = tmp_path / "copy.genmojo"
-    monkeypatch.setattr("PySide6.QtWidgets.QFileDialog.getSaveFileName", lambda *a, **k: (str(copy), ""))
     answer(["Cancel"], seen)
     assert not workspace.close()
     assert "could not be written" in seen[0]
@@ -68,11 +71,7 @@ def test_closing_asks_while_edits_are_not_on_the_disk(workspace, qtbot, tmp_path
 
 
 def test_what_the_disk_does_not_take_goes_into_a_copy(workspace, qtbot, tmp_path, monkeypatch):
-    choose_all(workspace)
-    workspace.session.project.wait()
-    fill_disk(workspace)
-    place_points(workspace, each=1)
-    qtbot.waitUntil(lambda: workspace.bar.saved.text() == "NOT SAVED", timeout=60_000)
+    place_on_full_disk(workspace, qtbot)
     free_disk(workspace)  # the copy lies on another disk; here nothing is tried again before it is asked for
     digest, copy, seen = workspace.session.annotation.digest(), tmp_path / "copy.genmojo", []
     monkeypatch.setattr("PySide6.QtWidgets.QFileDialog.getSaveFileName", lambda *a, **k: (str(copy), ""))

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from annotating import choose_all, fill, place_points
+from annotating import choose_all, fill, place_points, refine
 
 from genmojo_core.tracks.edit_tracks import update_track
 from genmojo_core.tracks.suspicion import Spot
@@ -11,11 +11,7 @@ from genmojo_core.tracks.suspicion import Spot
 @pytest.fixture
 def queue(workspace):
     """Two points filled by a line; the spots of a test are made by hand."""
-    choose_all(workspace)
-    place_points(workspace, each=1)
-    fill(workspace)
-    workspace.show_step(2)
-    workspace.work.tracker.close()
+    refine(workspace, each=1)
     return workspace.hands.going.queue
 
 

@@ -1,7 +1,7 @@
 """Ways back, curves on show and the keyboard after a choice, in the real window."""
 
 import pytest
-from annotating import choose_all, fill, place_points
+from annotating import refine
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
@@ -11,11 +11,7 @@ LEFT, PLAIN = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 @pytest.fixture
 def refining(workspace):
     """Two points per object, filled without a tracker."""
-    choose_all(workspace)
-    place_points(workspace, each=2)
-    fill(workspace)
-    workspace.show_step(2)
-    workspace.work.tracker.close()
+    refine(workspace, each=2)
     workspace.canvas.setFocus()
     return workspace
 
