@@ -107,9 +107,11 @@ SENTENCES: dict[str, str] = {
     "set_note": "Set {what}",
     "consent": "consent",
     "needs_fix": "Needs fix: {reason}",
+    "needs_fix_note": "Needs fix: {reason} ({name})",
     "fixed": "Fixed",
     "approve": "Approve",
     "reject": "Reject",
+    "reject_note": "Reject: {name}",
     # why a reviewer returns a track (`annotation.REASONS`)
     "fault_drift": "drift",
     "fault_jump": "jump",

@@ -82,7 +82,13 @@ def object_in(record: dict[str, Any]) -> ObjectInfo:
 
 
 def track_in(record: dict[str, Any]) -> TrackInfo:
-    """A TrackInfo of plain data."""
+    """A TrackInfo of plain data.
+
+    Older projects had one note only, over which a reviewer wrote: of a track that came back or was given up it is his.
+    """
+    if "review_note" not in record:
+        theirs = record["review"] in ("needs_fix", "fixed", "rejected")
+        record = record | {"note": "" if theirs else record["note"], "review_note": record["note"] if theirs else ""}
     values = {f.name: record[f.name] for f in fields(TrackInfo)}
     values["run"] = tuple(values["run"]) if values["run"] is not None else None
     return TrackInfo(**values)

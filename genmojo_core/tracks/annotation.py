@@ -46,8 +46,8 @@ class ObjectInfo:
 class TrackInfo:
     """A track: key point `number` (1..5) of an object, who made it, and where its review stands.
 
-    `reason`, `run` (first and last frame, both included) and `note` say what a reviewer found; `rounds` counts how
-    often the track went back to `person`.
+    `reason`, `run` (first and last frame, both included) and `review_note` are what `reviewer` found in the decision
+    that stands; `note` is the annotators' own. `rounds` counts how often the track went back to `person`.
     """
 
     id: int
@@ -62,6 +62,7 @@ class TrackInfo:
     note: str = ""
     rounds: int = 0
     locked: bool = False
+    review_note: str = ""
 
 
 @dataclass(frozen=True)

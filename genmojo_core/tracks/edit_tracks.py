@@ -9,6 +9,7 @@ import numpy as np
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.sentences import say
+from genmojo_core.tracks import review
 from genmojo_core.tracks.annotation import REASONS, Annotation, Cells, ObjectInfo, TrackInfo
 from genmojo_core.tracks.edits import CellsChange, Edit, MetaChange, ObjectChange, TrackChange, cells_change
 from genmojo_core.tracks.model import NONE
@@ -53,37 +54,64 @@ def update_track(annotation: Annotation, track: int, title: str = "", frame: int
     return Edit("track", title or say("change_point", number=info.number), changes, frame, track)
 
 
+def begin(annotation: Annotation, track: int) -> Edit:
+    """A person works on a track: a draft is in progress from now on; any other stays as it is."""
+    info = annotation.tracks[track]
+    stands = review.after(info, "begin") if review.allowed(info.review, "begin") else info.review
+    return update_track(annotation, track, review=stands)
+
+
 def needs_fix(annotation: Annotation, track: int, reason: str, run: tuple[int, int], reviewer: str, note: str) -> Edit:
-    """A reviewer returns a track to its annotator with a reason of REASONS and the frames (first, last) concerned."""
+    """A reviewer returns a track to its annotator with a reason of REASONS and the frames (first, last) concerned.
+
+    Returning what has not come back yet says it anew and is no further round.
+    """
     if reason not in REASONS:
         raise GenmojoError("argument", f"'{reason}' is no reason", hint=f"use {', '.join(REASONS)}")
-    rounds = annotation.tracks[track].rounds + 1
-    return update_track(annotation, track, say("needs_fix", reason=reason), run[0], review="needs_fix", reason=reason,
-                        run=run, reviewer=reviewer, note=note, rounds=rounds, locked=False)  # fmt: skip
+    info = annotation.tracks[track]
+    title = say("needs_fix_note", reason=reason, name=note) if note else say("needs_fix", reason=reason)
+    return update_track(annotation, track, title, run[0], review=review.after(info, "return"), reason=reason, run=run,
+                        reviewer=reviewer, review_note=note, rounds=info.rounds + (info.review != "needs_fix"),
+                        locked=False)  # fmt: skip
 
 
 def fixed(annotation: Annotation, track: int) -> Edit:
-    """The annotator answers: the spot was worked on."""
-    run = annotation.tracks[track].run
-    return update_track(annotation, track, say("fixed"), run[0] if run else 0, review="fixed")
+    """The annotator answers: the spot was worked on. What the reviewer said stays for the next look.
+
+    Raises GenmojoError("argument") unless a reviewer returned the track.
+    """
+    info = annotation.tracks[track]
+    return update_track(annotation, track, say("fixed"), info.run[0] if info.run else 0,
+                        review=review.after(info, "fix"))  # fmt: skip
 
 
-def approve(annotation: Annotation, track: int, reviewer: str) -> Edit:
+def approve(annotation: Annotation, track: int, reviewer: str, note: str = "") -> Edit:
     """A reviewer is content; the track is locked. Every frame must have a state.
 
-    Raises GenmojoError("argument") where one has not.
+    Raises GenmojoError("argument") where one has not, and if the track is approved already.
     """
+    stands = review.after(annotation.tracks[track], "approve")
     blank = np.flatnonzero(annotation.track(track).state == NONE)
     if len(blank):
         raise GenmojoError("argument", f"track {track} says nothing about frame {blank[0]} and {len(blank) - 1} others",
                            hint="annotate them first")  # fmt: skip
-    return update_track(annotation, track, say("approve"), 0, review="approved", reviewer=reviewer, reason="",
-                        run=None, locked=True)  # fmt: skip
+    return update_track(annotation, track, say("approve"), 0, review=stands, reviewer=reviewer, reason="", run=None,
+                        review_note=note, locked=True)  # fmt: skip
 
 
 def reject(annotation: Annotation, track: int, reviewer: str, note: str) -> Edit:
-    """A reviewer gives a track up."""
-    return update_track(annotation, track, say("reject"), 0, review="rejected", reviewer=reviewer, note=note)
+    """A reviewer gives a track up. Raises GenmojoError("argument") if it is given up already."""
+    stands = review.after(annotation.tracks[track], "reject")
+    title = say("reject_note", name=note) if note else say("reject")
+    return update_track(annotation, track, title, 0, review=stands, reviewer=reviewer, reason="", run=None,
+                        review_note=note)  # fmt: skip
+
+
+def lock(annotation: Annotation, track: int, frame: int, *, on: bool) -> Edit:
+    """Lock a track or unlock it. Unlocking an approved one takes the approval back."""
+    info = annotation.tracks[track]
+    stands = review.after(info, "reopen") if not on and review.allowed(info.review, "reopen") else info.review
+    return update_track(annotation, track, say("lock" if on else "unlock"), frame, locked=on, review=stands)
 
 
 def swap(annotation: Annotation, one: int, other: int, first: int, last: int) -> Edit:

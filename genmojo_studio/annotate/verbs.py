@@ -60,9 +60,8 @@ def outside(session: Session, xy: tuple[float, float]) -> bool:
 
 def in_work(session: Session, track: int, step: int | None) -> int | None:
     """A draft that a person works on is in progress, from the same step on."""
-    info = session.annotation.tracks[track]
-    if info.review == "draft" and step is not None:
-        session.do(edit_tracks.update_track(session.annotation, track, review="in_progress"), step)
+    if step is not None:
+        session.do(edit_tracks.begin(session.annotation, track), step)
     return step
 
 
@@ -208,12 +207,14 @@ def clear(session: Session, *, after: bool) -> None:
 
 
 def toggle_lock(session: Session) -> None:
-    """Lock the active track, or unlock it."""
+    """Lock the active track, or unlock it; unlocking takes an approval back, which is said."""
     track = session.track
-    if track is not None:
-        locked = session.annotation.tracks[track].locked
-        title = say("unlock" if locked else "lock")
-        session.do(edit_tracks.update_track(session.annotation, track, title, session.frame, locked=not locked))
+    if track is None:
+        return
+    before = session.annotation.tracks[track]
+    session.do(edit_tracks.lock(session.annotation, track, session.frame, on=not before.locked))
+    if session.annotation.tracks[track].review != before.review:
+        session.said.emit(tr("Unlocked: the track is no longer approved and waits for a decision again."))
 
 
 def delete_track(session: Session) -> None:

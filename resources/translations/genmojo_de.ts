@@ -1888,6 +1888,10 @@
       <translation>Nur zwischen zwei Schlüsseln gibt es eine Wahl: auf jede Seite einen setzen.</translation>
     </message>
     <message>
+      <source>Unlocked: the track is no longer approved and waits for a decision again.</source>
+      <translation>Entsperrt: die Spur ist nicht mehr freigegeben und wartet wieder auf eine Entscheidung.</translation>
+    </message>
+    <message>
       <source>This segment is filled by: {mode}</source>
       <translation>Dieser Abschnitt wird gefüllt durch: {mode}</translation>
     </message>
@@ -4982,6 +4986,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Nacharbeit nötig: {reason}</translation>
     </message>
     <message>
+      <source>Needs fix: {reason} ({name})</source>
+      <translation>Nacharbeit nötig: {reason} ({name})</translation>
+    </message>
+    <message>
+      <source>Reject: {name}</source>
+      <translation>Verwerfen: {name}</translation>
+    </message>
+    <message>
       <source>drift</source>
       <translation>driftet ab</translation>
     </message>
@@ -7036,6 +7048,34 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>no point has a position in space</source>
       <translation>kein Punkt hat einen Ort im Raum</translation>
+    </message>
+    <message>
+      <source>the review of point {number} does not stand where this is possible</source>
+      <translation>die Prüfung von Punkt {number} lässt das so nicht zu</translation>
+    </message>
+    <message>
+      <source>point {number} was not returned by a reviewer, so there is nothing to call fixed</source>
+      <translation>Punkt {number} hat niemand zurückgegeben, es gibt also nichts, was behoben wäre</translation>
+    </message>
+    <message>
+      <source>a reviewer returns it in step 4</source>
+      <translation>zurückgegeben wird er in Schritt 4</translation>
+    </message>
+    <message>
+      <source>point {number} is approved already</source>
+      <translation>Punkt {number} ist schon freigegeben</translation>
+    </message>
+    <message>
+      <source>return it or reject it to say otherwise</source>
+      <translation>geben Sie ihn zurück oder verwerfen Sie ihn, wenn Sie es anders sehen</translation>
+    </message>
+    <message>
+      <source>point {number} is rejected already</source>
+      <translation>Punkt {number} ist schon verworfen</translation>
+    </message>
+    <message>
+      <source>approve it or return it to say otherwise</source>
+      <translation>geben Sie ihn frei oder zurück, wenn Sie es anders sehen</translation>
     </message>
     <message>
       <source>every frame has masks already</source>

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import sqlite3
 import time
+import zlib
 from contextlib import closing
 from pathlib import Path
 
@@ -13,6 +15,7 @@ import pytest
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store import project_file
+from genmojo_core.store.edit_codec import decode_annotation, encode_annotation
 from genmojo_core.store.project import Project, info_of
 from genmojo_core.tracks import edit_tracks, keys
 from genmojo_core.tracks.annotation import TRACKER, Annotation, ObjectInfo, Proposal
@@ -286,3 +289,16 @@ def test_what_cannot_be_written_is_said_kept_and_can_be_saved_elsewhere(tmp_path
     project.close()
     blocker.close()
     assert project_file.load(tmp_path / "p.genmojo").annotation.digest() == project.annotation.digest()
+
+
+def test_a_project_from_before_reviewers_had_notes_of_their_own_keeps_every_word() -> None:
+    """Then a reviewer wrote over the one note there was: of what came back it is the reviewer's, else the annotator's."""
+    annotation = annotations.started(6, 1, 3)
+    edit_tracks.needs_fix(annotation, 1, "drift", (1, 2), "Bo", "left ear").do(annotation)
+    edit_tracks.update_track(annotation, 2, note="blurred", review="approved", locked=True).do(annotation)
+    record = json.loads(zlib.decompress(encode_annotation(annotation)))
+    for track in record["tracks"]:
+        track["info"]["note"] = track["info"].pop("review_note") or track["info"]["note"]
+    old = decode_annotation(zlib.compress(json.dumps(record).encode()))
+    assert [(i.note, i.review_note) for i in old.tracks.values()] == [("", "left ear"), ("blurred", ""), ("", "")]
+    assert old.digest() == annotation.digest()

@@ -97,6 +97,7 @@ def test_points_names_notes_reviews_objects_and_doubts_are_listed_and_taken() ->
     edit_tracks.update_track(theirs, 1, name="nose", note="blurred").do(theirs)
     keys.set_uncertain(theirs, 1, 2, 3, on=True).do(theirs)
     edit_tracks.needs_fix(theirs, 2, "drift", (3, 6), "Bob", "look").do(theirs)
+    edit_tracks.update_track(mine, 2, note="slips").do(mine)
     edit_tracks.update_track(mine, 3, name="mine").do(mine)
     edit_tracks.update_track(theirs, 3, name="theirs").do(theirs)
     found = preview(base, mine, theirs)
@@ -106,7 +107,7 @@ def test_points_names_notes_reviews_objects_and_doubts_are_listed_and_taken() ->
         ("object", 9, 0): ("theirs", "", "chosen"), ("point", 9, 2): ("theirs", "", "1"),
         ("point", 2, 2): ("theirs", "12", ""), ("name", 1, 1): ("theirs", "", "nose"),
         ("note", 1, 1): ("theirs", "", "blurred"), ("review", 1, 2): ("theirs", "", "needs_fix"),
-        ("note", 1, 2): ("theirs", "", "look"), ("name", 1, 3): ("conflict", "mine", "theirs"),
+        ("note", 1, 2): ("mine", "slips", ""), ("name", 1, 3): ("conflict", "mine", "theirs"),
     }  # fmt: skip
     assert [(r.track, r.first, r.last, r.kind) for r in found if not isinstance(r, MergeThing)] == [(1, 2, 3, "theirs")]
     before = mine.digest()
@@ -119,7 +120,8 @@ def test_points_names_notes_reviews_objects_and_doubts_are_listed_and_taken() ->
     assert mine.objects[9].status == "chosen"
     assert (places[1, 1].name, places[1, 1].note, places[1, 3].name) == ("nose", "blurred", "mine")
     assert (places[1, 2].review, places[1, 2].reason, places[1, 2].run) == ("needs_fix", "drift", (3, 6))
-    assert [one.kind for one in preview(base, mine, theirs)] == ["conflict"]
+    assert (places[1, 2].review_note, places[1, 2].note) == ("look", "slips"), "the reviewer's words beside my own"
+    assert [one.kind for one in preview(base, mine, theirs)] == ["mine", "conflict"]
     edit.undo(mine)
     assert mine.digest() == before
 

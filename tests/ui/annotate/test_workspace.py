@@ -388,7 +388,7 @@ def test_a_track_is_rejected_and_limits_are_ones_own(workspace):
     workspace.review.note.setText("cannot be told from its neighbour")
     workspace.table.trigger("annotate.review.reject")
     info = session.annotation.tracks[track]
-    assert (info.review, info.note, info.reviewer) == ("rejected", "cannot be told from its neighbour", "Ada")
+    assert (info.review, info.review_note, info.reviewer) == ("rejected", "cannot be told from its neighbour", "Ada")
     assert session.track != track
     session.undo()
     assert session.annotation.tracks[track].review != "rejected"
