@@ -115,7 +115,9 @@ class RefinePage(QWidget):
         self.seed.setText(f"{made}, {tr('confidence')} {decimal(cells.conf[0], '.2f')}")
         spot = spot_at(self.spots, track, session.frame)
         info = session.annotation.tracks[track]
-        reason = f"{tr('Reviewer')}: {told(info.reason)} {info.review_note}".strip() if info.review == "needs_fix" else ""
+        reason = (
+            f"{tr('Reviewer')}: {told(info.reason)} {info.review_note}".strip() if info.review == "needs_fix" else ""
+        )
         doubts = map(told, spot.reasons[:2]) if spot else ()
         self.why.setText("; ".join(filter(None, (reason, *doubts))) or tr("nothing"))
         if not self.note.hasFocus():

@@ -292,7 +292,7 @@ def test_what_cannot_be_written_is_said_kept_and_can_be_saved_elsewhere(tmp_path
 
 
 def test_a_project_from_before_reviewers_had_notes_of_their_own_keeps_every_word() -> None:
-    """Then a reviewer wrote over the one note there was: of what came back it is the reviewer's, else the annotator's."""
+    """A reviewer then wrote over the one note there was: of what came back it is the reviewer's."""
     annotation = annotations.started(6, 1, 3)
     edit_tracks.needs_fix(annotation, 1, "drift", (1, 2), "Bo", "left ear").do(annotation)
     edit_tracks.update_track(annotation, 2, note="blurred", review="approved", locked=True).do(annotation)
