@@ -277,6 +277,9 @@ QLabel[role="title"] { font-size: 20pt; font-weight: 600; } QLabel[role="heading
 QFrame[role="card"] { background: @panel@; border: 1px solid @line@; border-radius: 8px; }
 QFrame[role="card"]:hover { border: 1px solid @accent@; }
 QFrame[role="banner"] { background: @raised@; border-left: 4px solid @warn@; }
+QFrame[role="banner"] QPushButton { background: @panel@; border: 1px solid @line@; }
+QFrame[role="banner"] QPushButton:hover { background: @hover@; }
+QFrame[role="banner"] QPushButton:focus { border: 1px solid @accent@; }
 QPushButton[role="workspace"] { background: transparent; padding: 6px 16px; font-weight: 600; border-radius: 0; }
 QPushButton[role="workspace"]:checked { color: @text@; border-bottom: 2px solid @accent@; }
 """

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from genmojo_core.tracks import edit_tracks
 from genmojo_studio.annotate import steps, verbs
 from genmojo_studio.annotate.accepting import Accepting
 from genmojo_studio.annotate.actions import KEYED
@@ -93,6 +92,7 @@ class Hands:
         w.play.sheet.painted.connect(self.painted)
         w.play.graphs.moved.connect(self.knot_moved)
         w.refine.spot_chosen.connect(self.going.show_spot)
+        w.refine.returned.fixed_wanted.connect(self._fixed)
         w.work.spots_ready.connect(self.going.queue.set_spots)
         self.going.queue.changed.connect(lambda: w.refine.show_queue(self.going.queue))
         w.points.seed_wanted.connect(self.dialogs.seed)
@@ -145,7 +145,7 @@ class Hands:
             "track.lock": lambda: verbs.toggle_lock(s),
             "track.delete": lambda: verbs.delete_track(s),
             "review.fix": self.dialogs.fix,
-            "review.fixed": lambda: self._fixed(),
+            "review.fixed": self._fixed,
             "review.approve": w.review.approve,
             "review.reject": w.review.reject,
             "review.merge": self.dialogs.merge,
@@ -326,9 +326,8 @@ class Hands:
                 continue
 
     def _fixed(self) -> None:
-        track = self._s.track
-        if track is not None:
-            verbs.attempt(self._s, lambda: edit_tracks.fixed(self._s.annotation, track))
+        if self._s.track is not None:
+            verbs.fixed(self._s, self._s.track)
 
     def _toggle_snap(self) -> None:
         self._s.snap = not self._s.snap

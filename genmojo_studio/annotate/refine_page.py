@@ -19,6 +19,7 @@ from genmojo_core.sentences import say
 from genmojo_core.tracks.annotation import KEY
 from genmojo_core.tracks.edit_tracks import update_track
 from genmojo_core.tracks.suspicion import Spot
+from genmojo_studio.annotate import returned
 from genmojo_studio.annotate.button_panel import grid_of
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.spot_queue import SpotQueue, spot_at
@@ -37,9 +38,11 @@ class RefinePage(QWidget):
         super().__init__(parent)
         self._session = session
         self.spots: list[Spot] = []
+        self.returned = returned.ReturnedBar(session)
         self.tree = TrackTree(session, ("state", "doubt"))
         self.place, self.state, self.seed, self.why = QLabel(), QLabel(), QLabel(), QLabel(wordWrap=True)
         self.note = QLineEdit(placeholderText=tr("note about this track"))
+        self._pins = 0  # spots at the head of the queue that came back from the review
         self._noted: int | None = None  # the track that the note on show belongs to
         self.queue = QListWidget()
         self.queue.setAccessibleName(tr("Suspicious spots, worst first"))
@@ -65,7 +68,7 @@ class RefinePage(QWidget):
         """List the queue: the one on show selected, those looked at pale."""
         left, row = queue.left(), -1
         same = self.spots == queue.spots
-        self.spots = queue.spots
+        self.spots, self._pins = queue.spots, len(queue.pins)
         title = tr("Queue: {n} of {m} left (N goes to the next)").format(n=len(left), m=len(self.spots))
         if len(self.spots) > MOST_SHOWN:
             title += tr("; the worst {n} are listed").format(n=MOST_SHOWN)
@@ -73,7 +76,7 @@ class RefinePage(QWidget):
         self.title.setToolTip(title)
         if not same:
             self._list(self.spots)
-        waiting = {id(s) for s in left}
+        waiting = {id(s) for s in (*left, *queue.pins)}
         pale, full = self.palette().placeholderText(), self.palette().text()
         for n in range(self.queue.count()):
             item = self.queue.item(n)
@@ -96,6 +99,9 @@ class RefinePage(QWidget):
             item = QListWidgetItem(text, self.queue)
             item.setData(Qt.ItemDataRole.UserRole, place)
             item.setToolTip("\n".join(map(told, spot.reasons)))
+            if place < self._pins:
+                item.setText(f"↩ {text}")
+                item.setBackground(returned.tint(60))
 
     def refresh(self) -> None:
         """The active point in this frame."""
@@ -113,13 +119,11 @@ class RefinePage(QWidget):
         sources = ("–", tr("a person"), tr("tracker"), tr("flow"), tr("line"), tr("import"), tr("hold"))
         made = sources[int(cells.source[0])] if int(cells.source[0]) < len(sources) else "?"
         self.seed.setText(f"{made}, {tr('confidence')} {decimal(cells.conf[0], '.2f')}")
-        spot = spot_at(self.spots, track, session.frame)
+        spot = spot_at(self.spots[self._pins :], track, session.frame)
         info = session.annotation.tracks[track]
-        reason = (
-            f"{tr('Reviewer')}: {told(info.reason)} {info.review_note}".strip() if info.review == "needs_fix" else ""
-        )
         doubts = map(told, spot.reasons[:2]) if spot else ()
-        self.why.setText("; ".join(filter(None, (reason, *doubts))) or tr("nothing"))
+        back = returned.words(session, info) if info.review == "needs_fix" else ""
+        self.why.setText("\n".join(filter(None, (back, "; ".join(doubts)))) or tr("nothing"))
         if not self.note.hasFocus():
             self.note.setText(info.note)
 
@@ -144,7 +148,8 @@ class RefinePage(QWidget):
         split.setChildrenCollapsible(False)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(8, 6, 8, 6)
-        outer.addWidget(split)
+        outer.addWidget(self.returned)
+        outer.addWidget(split, 1)
         QWidget.setTabOrder(self.tree, self.note)
 
     def _frame_changed(self, _frame: int) -> None:

@@ -1,6 +1,7 @@
 """The queue of suspicious spots: worst first, what a person has looked at, and the one on show.
 
-A spot that was looked at is left out until its run changes, however often the ranking does.
+A spot that was looked at is left out until its run changes, however often the ranking does. What a reviewer sent
+back stands before everything else until it is fixed.
 """
 
 from __future__ import annotations
@@ -10,10 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
+from genmojo_core.tracks.review import SETTLED
 from genmojo_core.tracks.suspicion import Spot
+from genmojo_studio.annotate import returned
 from genmojo_studio.annotate.session import Session
-
-_SETTLED = ("approved", "rejected")  # reviews after which nobody needs to look
 
 
 @dataclass(frozen=True)
@@ -32,16 +33,33 @@ class SpotQueue(QObject):
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self.spots: list[Spot] = []
         self.current: Spot | None = None
+        self._ranked: list[Spot] = []
         self._seen: list[_Seen] = []
+        self.pins, self.spots = self._arranged()
+        session.edited.connect(self._edited)
 
     def set_spots(self, spots: list[Spot]) -> None:
         """Ranked anew; tracks that are locked, approved or rejected need no look."""
-        tracks = self._session.annotation.tracks
-        active = {i.id for i in self._session.annotation.active()}
-        open_ = {t for t in active if not tracks[t].locked and tracks[t].review not in _SETTLED}
-        self.spots = [s for s in spots if s.track in open_]
+        self._ranked = spots
+        self._arrange()
+
+    def _edited(self, _touched: object) -> None:
+        """Something may have come back, been answered or been settled."""
+        if self._arranged() != (self.pins, self.spots):
+            self._arrange()
+
+    def _arranged(self) -> tuple[list[Spot], list[Spot]]:
+        """What came back, and that followed by the ranked spots of other places."""
+        pins = returned.pins(self._session)
+        open_ = {i.id for i in self._session.annotation.active() if not i.locked and i.review not in SETTLED}
+        pinned = {pin.track: pin for pin in pins}
+        ranked = [s for s in self._ranked if s.track in open_ and not (
+            s.track in pinned and _same(s, pinned[s.track]))]  # fmt: skip
+        return pins, [*pins, *ranked]
+
+    def _arrange(self) -> None:
+        self.pins, self.spots = self._arranged()
         if self.current is not None:
             shown = self.current
             self.current = next((s for s in self.spots if s.track == shown.track and _inside(shown.frame, s)), None)

@@ -12,6 +12,7 @@ import numpy as np
 
 from genmojo_core.tracks.annotation import CONFIRMED, KEY, Annotation
 from genmojo_core.tracks.model import NONE
+from genmojo_core.tracks.review import SETTLED, returned
 from genmojo_studio.annotate.session import OBJECTS
 from genmojo_studio.translate import mark, tr
 
@@ -74,9 +75,9 @@ def _refine_missing(annotation: Annotation, points: int, stride: int) -> str:
     tracks = annotation.active()
     if not tracks:
         return tr("{n} points are still to be placed.").format(n=points)
-    returned = [i for i in tracks if i.review == "needs_fix"]
-    if returned:
-        return tr("{n} tracks came back from the review.").format(n=len(returned))
+    back = returned(annotation)
+    if back:
+        return tr("{n} tracks came back from the review.").format(n=len(back))
     frames = np.arange(0, annotation.frames, stride)
     open_frames = 0
     for info in tracks:
@@ -89,7 +90,7 @@ def _refine_missing(annotation: Annotation, points: int, stride: int) -> str:
 
 def _review_missing(annotation: Annotation, points: int, stride: int) -> str:
     tracks = annotation.active()
-    left = [i for i in tracks if i.review not in ("approved", "rejected")]
+    left = [i for i in tracks if i.review not in SETTLED]
     if left or not tracks:
         return tr("{n} tracks wait for a decision.").format(n=len(left))
     return ""

@@ -12,6 +12,7 @@ from genmojo_core.tracks import edit_tracks, keys
 from genmojo_core.tracks.annotation import CONFIRMED, HUMAN, KEY, SNAPPED, Cells, TrackInfo
 from genmojo_core.tracks.edits import CellsChange, Edit
 from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
+from genmojo_core.tracks.review import returned
 from genmojo_studio.annotate.session import Painting, Session
 from genmojo_studio.translate import fault, tr
 
@@ -215,6 +216,16 @@ def toggle_lock(session: Session) -> None:
     session.do(edit_tracks.lock(session.annotation, track, session.frame, on=not before.locked))
     if session.annotation.tracks[track].review != before.review:
         session.said.emit(tr("Unlocked: the track is no longer approved and waits for a decision again."))
+
+
+def fixed(session: Session, track: int) -> None:
+    """A track that came back was worked on: it waits for its reviewer again. Only what came back can be."""
+    if attempt(session, lambda: edit_tracks.fixed(session.annotation, track)) is None:
+        return
+    info, left = session.annotation.tracks[track], len(returned(session.annotation))
+    said = tr("{point} is fixed and goes back to {who}.").format(
+        point=session.title(info.object, info.number), who=info.reviewer or tr("the reviewer"))  # fmt: skip
+    session.said.emit(said + (" " + tr("{n} more came back.").format(n=left) if left else ""))
 
 
 def delete_track(session: Session) -> None:

@@ -1048,8 +1048,56 @@
       <translation>eingerastet</translation>
     </message>
     <message>
-      <source>Reviewer</source>
-      <translation>Prüfer</translation>
+      <source>frame {a}</source>
+      <translation>Bild {a}</translation>
+    </message>
+    <message>
+      <source>frames {a} to {b}</source>
+      <translation>Bilder {a} bis {b}</translation>
+    </message>
+    <message>
+      <source>A track came back from the review.</source>
+      <translation>Eine Spur kam aus der Prüfung zurück.</translation>
+    </message>
+    <message>
+      <source>Sent back by {who}, round {n}: {reason}, {place}.</source>
+      <translation>Von {who} zurückgegeben, Runde {n}: {reason}, {place}.</translation>
+    </message>
+    <message>
+      <source>sent back by {who}: {reason}</source>
+      <translation>von {who} zurückgegeben: {reason}</translation>
+    </message>
+    <message>
+      <source>Fixed</source>
+      <translation>Behoben</translation>
+    </message>
+    <message>
+      <source>The point that is active was worked on and goes back to the reviewer.</source>
+      <translation>Der gewählte Punkt wurde bearbeitet und geht an die Prüfung zurück.</translation>
+    </message>
+    <message>
+      <source>a reviewer</source>
+      <translation>der Prüfung</translation>
+    </message>
+    <message>
+      <source>{n} tracks came back from the review.</source>
+      <translation>{n} Spuren kamen aus der Prüfung zurück.</translation>
+    </message>
+    <message>
+      <source>N goes there first.</source>
+      <translation>N geht zuerst dorthin.</translation>
+    </message>
+    <message>
+      <source>Yours</source>
+      <translation>Ihre</translation>
+    </message>
+    <message>
+      <source>for {name}</source>
+      <translation>für {name}</translation>
+    </message>
+    <message>
+      <source> and {n} more</source>
+      <translation> und {n} weitere</translation>
     </message>
     <message>
       <source>Reject</source>
@@ -1100,12 +1148,12 @@
       <translation>Noch keine Spuren.</translation>
     </message>
     <message>
-      <source>Returned to {name}: {reason}</source>
-      <translation>An {name} zurückgegeben: {reason}</translation>
+      <source>Reviewer</source>
+      <translation>Prüfer</translation>
     </message>
     <message>
-      <source>frames {a} to {b}</source>
-      <translation>Bilder {a} bis {b}</translation>
+      <source>Returned to {name}: {reason}</source>
+      <translation>An {name} zurückgegeben: {reason}</translation>
     </message>
     <message>
       <source>frame {a}; [ and ] mark more</source>
@@ -1516,10 +1564,6 @@
       <translation>{n} Spuren haben keinen Vorschlag.</translation>
     </message>
     <message>
-      <source>{n} tracks came back from the review.</source>
-      <translation>{n} Spuren kamen aus der Prüfung zurück.</translation>
-    </message>
-    <message>
       <source>{n} points in frames of the stride are not accepted.</source>
       <translation>{n} Punkte in Bildern der Schrittweite sind nicht angenommen.</translation>
     </message>
@@ -1892,8 +1936,20 @@
       <translation>Entsperrt: die Spur ist nicht mehr freigegeben und wartet wieder auf eine Entscheidung.</translation>
     </message>
     <message>
+      <source>{point} is fixed and goes back to {who}.</source>
+      <translation>{point} ist behoben und geht an {who} zurück.</translation>
+    </message>
+    <message>
+      <source>the reviewer</source>
+      <translation>die Prüfung</translation>
+    </message>
+    <message>
       <source>This segment is filled by: {mode}</source>
       <translation>Dieser Abschnitt wird gefüllt durch: {mode}</translation>
+    </message>
+    <message>
+      <source>{n} more came back.</source>
+      <translation>{n} weitere kamen zurück.</translation>
     </message>
     <message>
       <source>Reading the clip …</source>
@@ -4284,10 +4340,6 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Returns the track to its annotator with a reason.</source>
       <translation>Gibt die Spur mit einem Grund an ihren Annotator zurück.</translation>
-    </message>
-    <message>
-      <source>Fixed</source>
-      <translation>Behoben</translation>
     </message>
     <message>
       <source>Says that the spot was worked on.</source>
