@@ -22,7 +22,7 @@ from genmojo_core.trackers.evidence import scene_of
 from genmojo_core.trackers.seeding import OpticalSeeder, Queries, Seeder, proposals
 from genmojo_core.trackers.solver import SHORT_SIDE, SolveRequest, TrackSolver
 from genmojo_core.tracks import edit_tracks, keys
-from genmojo_core.tracks.annotation import TRACKER, Annotation, ObjectInfo
+from genmojo_core.tracks.annotation import PROPOSED, TRACKER, Annotation, ObjectInfo
 from genmojo_core.tracks.model import OCCLUDED, VISIBLE, PointTracks
 from genmojo_core.tracks.suspicion import SUSPICIOUS, Spot, assess, queue
 
@@ -115,7 +115,9 @@ class Person:
         """Seed, refine every `stride` frames, then visit the first `share` of the queue."""
         ids, queries = Queries.of(self.annotation)
         found = proposals(self.seeder.seed(self.clip, queries), ids, self.seeder.name)
-        keys.accept(self.annotation, found, TRACKER).do(self.annotation)
+        for track, proposal in found.items() if self.seeder.name in PROPOSED else ():
+            self.annotation.propose(track, proposal)
+        keys.accept(self.annotation, found, PROPOSED.get(self.seeder.name, TRACKER)).do(self.annotation)
         for t in range(stride, len(self.clip), stride):
             self.visit(t, list(self.row))
         for spot in self.worst(share):

@@ -39,11 +39,12 @@ class ObjectMotion:
     """Links between the frames of one object. Holds OpenCV objects: use one per thread.
 
     Args:
-        layer: the object through the clip.
+        layer: the object through the clip. known: (T,) bool frames that have masks, by default all.
     """
 
-    def __init__(self, layer: Layer) -> None:
+    def __init__(self, layer: Layer, known: np.ndarray | None = None) -> None:
         self.layer = layer
+        self.known = np.ones(len(layer.mask), bool) if known is None else known
         self.frames = len(layer.mask)
         self.areas = layer.mask.sum(axis=(1, 2)).astype(np.float64)
         self._matcher = Matcher()

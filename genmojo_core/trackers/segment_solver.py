@@ -12,9 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from genmojo_core.trackers.guide import Guide
 from genmojo_core.trackers.object_motion import ObjectMotion
 
 SPANS = (1, 2, 3, 4, 6, 8)  # frames between the ends of a link
+GUIDED = 0.1  # weight of going as a proposal does, on top of its confidence
 HIDDEN = 0.03  # weight of the object's motion where the point's own match is not seen
 SMOOTH = 0.006  # weight of going straight on
 _SCALE = 0.6  # held px of disagreement from which a link counts less
@@ -39,24 +41,57 @@ def solve_points(
     first: int,
     end: int,
     slid: np.ndarray,  # (n, T, 2) held px, of `slide.slides`
+    guide: Guide | None = None,
 ) -> np.ndarray:  # (n, T, 2) held px
-    """Places of points of one object with frames first..end-1 solved; frames outside, and fixed ones, hold still."""
+    """Places of points of one object with frames first..end-1 solved; frames outside, and fixed ones, hold still.
+
+    A guide's links count beside those of the pictures, and alone where these see nothing.
+    """
     out = np.array(xy, np.float64)
     pairs = _pairs(motion, first, end)
     for _ in range(_ROUNDS):
         asked = [(s, t, motion.carry(s, t, out[:, s])) for s, t in pairs]
         found = [(s, t, carried) for s, t, carried in asked if carried is not None]
-        if not found:
-            break
-        s, t = np.array([f[0] for f in found]), np.array([f[1] for f in found])
-        linear = np.stack([motion.linear(int(a), int(b)) for a, b in zip(s, t, strict=True)])
-        place, own, trust = (np.stack([f[2][part] for f in found]) for part in range(3))
-        place += np.swapaxes(slid[:, t] - slid[:, s], 0, 1)
-        weight = np.maximum(own, HIDDEN * trust) / np.sqrt(np.abs(s - t))[:, None]
+        seen = _seen(motion, found, slid) if found else None
         for n in range(len(out)):
-            unknown = np.arange(first, end)[~fixed[n, first:end]]
-            _step(out[n], unknown, _Edges(s, t, linear, place[:, n], weight[:, n]))
+            edges = [] if seen is None else [_Edges(*seen[:3], *(part[:, n] for part in seen[3:]))]
+            if guide is not None and guide.on[n].any():
+                edges.append(_guided(motion, guide, n, out[n], (first, end)))
+            if edges:
+                _step(out[n], np.arange(first, end)[~fixed[n, first:end]], _joined(edges))
     return out
+
+
+def _seen(
+    motion: ObjectMotion, found: list[tuple[int, int, tuple[np.ndarray, ...]]], slid: np.ndarray
+) -> tuple[np.ndarray, ...]:  # s, t (M,), linear (M, 2, 2), place (M, n, 2), weight (M, n)
+    """What the links of the pictures say of all points."""
+    s, t = np.array([f[0] for f in found]), np.array([f[1] for f in found])
+    linear = np.stack([motion.linear(int(a), int(b)) for a, b in zip(s, t, strict=True)])
+    place, own, trust = (np.stack([f[2][part] for f in found]) for part in range(3))
+    place += np.swapaxes(slid[:, t] - slid[:, s], 0, 1)
+    return s, t, linear, place, np.maximum(own, HIDDEN * trust) / np.sqrt(np.abs(s - t))[:, None]
+
+
+def _guided(motion: ObjectMotion, guide: Guide, n: int, xy: np.ndarray, span: tuple[int, int]) -> _Edges:
+    """What a guide says of one point (T, 2): from frame s to t it goes as the guide does, and what parts it from the
+    guide moves with the object."""
+    on = np.flatnonzero(guide.on[n])
+    reach = on[(on >= span[0] - max(SPANS)) & (on < span[1] + max(SPANS))]
+    s, t = (side.ravel() for side in np.meshgrid(reach, reach, indexing="ij"))
+    near = np.isin(np.abs(s - t), SPANS)
+    s, t = s[near], t[near]
+    linear = np.stack([motion.linear(int(a), int(b)) for a, b in zip(s, t, strict=True)]).reshape(-1, 2, 2)
+    way = guide.xy[n]
+    place = way[t] + np.einsum("mij,mj->mi", linear, xy[s] - way[s])
+    weight = GUIDED * np.minimum(guide.conf[n, s], guide.conf[n, t]) / np.sqrt(np.abs(s - t))
+    return _Edges(s, t, linear, place, weight)
+
+
+def _joined(edges: list[_Edges]) -> _Edges:
+    """Links of several sources as one."""
+    parts = zip(*((e.s, e.t, e.linear, e.place, e.weight) for e in edges), strict=True)
+    return _Edges(*(np.concatenate(part) for part in parts))
 
 
 def _pairs(motion: ObjectMotion, first: int, end: int) -> list[tuple[int, int]]:

@@ -13,17 +13,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from genmojo_core.clip.clip import Clip
+from genmojo_core.clip.clip import Channel, Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.sentences import say
 from genmojo_core.trackers.evidence import evidence_of
+from genmojo_core.trackers.guide import Guide, guide_of, taken
 from genmojo_core.trackers.object_motion import ObjectMotion
 from genmojo_core.trackers.segment_solver import SPANS, solve_points
 from genmojo_core.trackers.slide import slides
 from genmojo_core.trackers.stabilise import Layer, flat_shade
 from genmojo_core.trackers.visibility import states_in, states_of
 from genmojo_core.tracks import keys
-from genmojo_core.tracks.annotation import CONFIRMED, KEY, TRACKER, Annotation, Cells
+from genmojo_core.tracks.annotation import CONFIRMED, KEY, TRACKER, Annotation, Cells, Proposal
 from genmojo_core.tracks.edits import Edit, join
 from genmojo_core.tracks.model import NONE, VISIBLE
 from genmojo_core.tracks.suspicion import Evidence
@@ -42,6 +43,7 @@ class SolveRequest:
         key: (track, frame) of the key to answer; None to seed everything.
         anew: the key's segments are followed anew, not begun from where they stand: for places that a deleted key, a
             line or a hold has left behind.
+        proposals: per track the proposal it follows, None for those that follow the pixels alone.
     """
 
     object_id: int
@@ -50,6 +52,7 @@ class SolveRequest:
     cells: tuple[Cells, ...]
     key: tuple[int, int] | None
     anew: bool = False
+    proposals: tuple[Proposal | None, ...] = ()
 
     @staticmethod
     def of(
@@ -57,8 +60,9 @@ class SolveRequest:
     ) -> SolveRequest:
         """The tracks of an object that have a key."""
         ids = tuple(i.id for i in annotation.tracks_of(object_id) if len(annotation.keys(i.id)))
-        return SolveRequest(object_id, annotation.size, ids, tuple(annotation.track(i).copy() for i in ids), key,
-                            anew)  # fmt: skip
+        cells = tuple(annotation.track(i).copy() for i in ids)
+        led = () if key is None else tuple(taken(annotation, i) for i in ids)
+        return SolveRequest(object_id, annotation.size, ids, cells, key, anew, led)
 
 
 @dataclass(frozen=True)
@@ -115,6 +119,7 @@ class TrackSolver:
         fixed = np.stack([(c.flags & (KEY | CONFIRMED)) > 0 for c in request.cells])
         known = np.stack([c.state != NONE for c in request.cells])
         seen = np.stack([c.state == VISIBLE for c in request.cells])
+        guide = guide_of(request.proposals, request.cells, self.scale)
         rows, first, end = list(range(len(xy))), 0, len(self._clip)
         if request.key is None:
             xy = _chained(motion, xy, known, fixed, progress, cancelled)
@@ -123,6 +128,7 @@ class TrackSolver:
             if request.anew:
                 start, stop = _segments(request.cells[row], t)
                 again = _chained(motion, xy[[row]], known[[row]], fixed[[row]], None, cancelled)
+                again = again if guide is None else guide.led(again, fixed[[row]] & known[[row]], row)
                 xy[row, start:stop] = again[0, start:stop]
             relinked = self._relink(motion, xy, fixed, t)
             first, end = (max(t - max(SPANS), 0), end) if relinked else _segments(request.cells[row], t)
@@ -130,8 +136,9 @@ class TrackSolver:
         slid = slides(motion, xy, fixed & seen)
         if request.key is not None and slid.any():
             rows, first, end = list(range(len(xy))), max(t - max(SPANS), 0), len(self._clip)
-        xy[rows] = solve_points(motion, xy[rows], fixed[rows], first, end, slid[rows])
-        return SolveAnswer(request, self._cells(motion, request, xy, fixed, (rows, first, end)))
+        mine = None if guide is None else guide.of(rows)
+        xy[rows] = solve_points(motion, xy[rows], fixed[rows], first, end, slid[rows], mine)
+        return SolveAnswer(request, self._cells(motion, request, xy, mine, (rows, first, end)))
 
     def follow(self, request: SolveRequest, t: int) -> SolveAnswer:
         """The point of the request's key in one other frame t, by the match of these two frames alone.
@@ -174,18 +181,20 @@ class TrackSolver:
         return changed
 
     def _cells(
-        self, motion: ObjectMotion, request: SolveRequest, xy: np.ndarray, fixed: np.ndarray,
+        self, motion: ObjectMotion, request: SolveRequest, xy: np.ndarray, guide: Guide | None,
         what: tuple[list[int], int, int],
     ) -> dict[int, tuple[np.ndarray, Cells]]:  # fmt: skip
         """The solved frames as cells in source pixels."""
         rows, first, end = what
         frames = np.arange(first, end)
-        state, conf = states_of(motion, xy[rows], [request.cells[row] for row in rows], self._clip.size)
-        none, source = np.zeros(len(frames), np.uint8), np.full(len(frames), TRACKER, np.uint8)
+        state, conf = states_of(motion, xy[rows], [request.cells[row] for row in rows], self._clip.size, guide)
+        none = np.zeros(len(frames), np.uint8)
+        source = np.full((len(rows), len(frames)), TRACKER, np.uint8) if guide is None else guide.source[:, frames]
         found = {}
         for n, row in enumerate(rows):
             place = (xy[row, frames] / self.scale).astype(np.float32)
-            found[request.tracks[row]] = (frames, Cells(place, state[n, frames], none, source, conf[n, frames], none))
+            told = Cells(place, state[n, frames], none, source[n], conf[n, frames], none)
+            found[request.tracks[row]] = (frames, told)
         return found
 
     def _motion(self, object_id: int) -> ObjectMotion:
@@ -197,8 +206,9 @@ class TrackSolver:
             if self._shade is None:
                 self._shade = np.stack([flat_shade(frame) for frame in self._clip.frames])
             mask = self._clip.object_mask(int(at[0]))
-            other = (self._clip.masks.value > 0) & ~mask  # type: ignore[union-attr]
-            self._motions[object_id] = ObjectMotion(Layer(self._shade, mask, other))
+            masks: Channel = self._clip.masks  # type: ignore[assignment]
+            layer = Layer(self._shade, mask, (masks.value > 0) & ~mask)
+            self._motions[object_id] = ObjectMotion(layer, masks.valid.any(axis=(1, 2)))
         return self._motions[object_id]
 
 

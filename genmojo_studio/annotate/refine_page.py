@@ -116,7 +116,8 @@ class RefinePage(QWidget):
         marks = ", ".join(name for bit, name in ((KEY, tr("key")), (4, tr("accepted")), (2, tr("uncertain")),
                                                  (8, tr("snapped"))) if cells.flags[0] & bit)  # fmt: skip
         self.state.setText(state_name(int(cells.state[0])) + (f"  ({marks})" if marks else ""))
-        sources = ("–", tr("a person"), tr("tracker"), tr("flow"), tr("line"), tr("import"), tr("hold"))
+        sources = ("–", tr("a person"), tr("tracker"), tr("flow"), tr("line"), tr("import"), tr("hold"),
+                   tr("scene"), "CoTracker", tr("file"))  # fmt: skip
         made = sources[int(cells.source[0])] if int(cells.source[0]) < len(sources) else "?"
         self.seed.setText(f"{made}, {tr('confidence')} {decimal(cells.conf[0], '.2f')}")
         spot = spot_at(self.spots[self._pins :], track, session.frame)

@@ -19,7 +19,7 @@ from genmojo_core.trackers.evidence import scene_of
 from genmojo_core.trackers.seeding import Queries, Seeder, merged, proposals
 from genmojo_core.trackers.solver import SolveAnswer, SolveRequest, TrackSolver
 from genmojo_core.tracks import keys, suspicion
-from genmojo_core.tracks.annotation import TRACKER, Proposal
+from genmojo_core.tracks.annotation import PROPOSED, TRACKER, Proposal
 from genmojo_core.tracks.edits import join
 from genmojo_core.tracks.model import NONE
 from genmojo_core.tracks.suspicion import Evidence, Suspicion
@@ -143,7 +143,8 @@ class Tracking(QObject):
         for track, proposal in there.items():
             session.project.propose(track, proposal)
         if there:
-            session.do(keys.accept(session.annotation, there, TRACKER))
+            name = next(iter(there.values())).tracker
+            session.do(keys.accept(session.annotation, there, PROPOSED.get(name, TRACKER)))
         self._stale |= {session.annotation.tracks[t].object for t in there}
         self._look.start()
         self._tell_seeded(len(there), [t for t in asked if t in session.annotation.tracks and t not in there])

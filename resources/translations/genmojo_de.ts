@@ -1012,6 +1012,14 @@
       <translation>gehalten</translation>
     </message>
     <message>
+      <source>scene</source>
+      <translation>Szene</translation>
+    </message>
+    <message>
+      <source>file</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>note about this track</source>
       <translation>Notiz zu dieser Spur</translation>
     </message>
@@ -3068,10 +3076,6 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>clip</source>
       <translation>Clip</translation>
-    </message>
-    <message>
-      <source>scene</source>
-      <translation>Szene</translation>
     </message>
     <message>
       <source>project</source>

@@ -9,7 +9,9 @@ from annotating import choose_all, fill, place_points
 from genmojo_core.store.npz import write_tracks
 from genmojo_core.trackers.seeding import make
 from genmojo_core.tracks import keys
+from genmojo_core.tracks.annotation import FILE
 from genmojo_core.tracks.model import OCCLUDED, VISIBLE, PointTracks
+from genmojo_studio.annotate import verbs
 
 
 @pytest.fixture
@@ -85,6 +87,34 @@ def test_seeding_again_goes_smoothly_through_every_key(workspace, qtbot):
     xy = session.annotation.track(1).xy
     assert xy[10, 0] == pytest.approx(x + 20.0)
     assert np.abs(np.diff(xy, axis=0)).max() < 1 + 20 / 10 + 0.01, "no key stands out as a spike"
+
+
+def test_a_key_after_seeding_from_a_file_keeps_the_way_of_the_file(workspace, qtbot, tmp_path):
+    choose_all(workspace)
+    place_points(workspace, each=1)
+    session = workspace.session
+    frames = session.annotation.frames
+    swing = np.stack([np.zeros(frames), 4.0 * np.sin(np.arange(frames) / 2.0)], axis=1)
+    xy = (session.annotation.track(1).xy[:1] + swing).astype(np.float32)
+    state = np.where(np.arange(frames) % 12 < 6, VISIBLE, OCCLUDED).astype(np.uint8)
+    owner = np.array([session.annotation.tracks[1].object])
+    write_tracks(PointTracks(xy[None], state[None], owner, session.annotation.size), tmp_path / "swing.npz")
+    assert seed(workspace, qtbot, make("file", tmp_path / "swing.npz")) == 1
+    session.select_track(1)
+    session.go(9)
+    x, y = session.annotation.track(1).xy[9]
+    with qtbot.waitSignal(workspace.work.tracker.solved, timeout=60_000):
+        verbs.place(session, (float(x) + 1.0, float(y)))
+        workspace.work.tracker.after_key(1, 9, session.project.log.head)
+    now = session.annotation.track(1)
+    hidden = np.setdiff1d(np.flatnonzero(state == OCCLUDED), [9])
+    assert (now.state[hidden] == OCCLUDED).all(), "which its mask does not tell"
+    assert (now.source[hidden] == FILE).all(), "the next key is answered alike"
+    workspace.refine.refresh()
+    assert workspace.refine.seed.text().startswith("a person")
+    session.go(int(hidden[0]))
+    workspace.refine.refresh()
+    assert workspace.refine.seed.text().startswith("file")
 
 
 def test_what_was_cancelled_changes_nothing_however_far_it_was(workspace, qtbot, said):
