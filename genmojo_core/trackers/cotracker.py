@@ -23,7 +23,7 @@ import numpy as np
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.cotracker_npz import CENTRE, tracks_from_cotracker
-from genmojo_core.store.npz import read_arrays, write_arrays
+from genmojo_core.store.npz import read_arrays
 from genmojo_core.tracks.model import NONE, PointTracks
 
 if TYPE_CHECKING:
@@ -34,7 +34,16 @@ LICENCE = (
     "program; you point to a copy of your own."
 )
 HUB = "hub:"  # instead of a checkout: "hub:cotracker3_offline", downloaded by torch.hub; only with the user's consent
+HUB_MODELS = {  # entry points of its hubconf.py -> what they are
+    "cotracker3_offline": "CoTracker 3, offline",
+    "cotracker3_online": "CoTracker 3, online",
+    "cotracker2": "CoTracker 2, windows of 8 frames",
+    "cotracker2_online": "CoTracker 2, online, windows of 8 frames",
+    "cotracker2v1": "CoTracker 2.1, windows of 16 frames",
+    "cotracker2v1_online": "CoTracker 2.1, online, windows of 16 frames",
+}
 _PROCESS = "genmojo_core.trackers.cotracker_process"
+_FILES = ("asked.npz", "answer.npz", "words.txt", "shares.txt")
 _OVERLAP = 8  # frames two windows share
 WINDOWS = (2 * _OVERLAP, 512)  # least and most frames of a window
 
@@ -66,7 +75,7 @@ class CoTrackerSeeder:
     """Follows points with CoTracker.
 
     Args:
-        checkout: folder that holds the package `cotracker`; or "hub:<model>" after `consent`.
+        checkout: folder that holds the package `cotracker`; or "hub:<model>", one of HUB_MODELS, after `consent`.
         checkpoint: its weights (.pth), None with the hub. limits: of the child.
         consent: the user agreed that torch.hub downloads and runs code.
     """
@@ -79,6 +88,9 @@ class CoTrackerSeeder:
         self._hub = str(checkout)[len(HUB) :] if str(checkout).startswith(HUB) else ""
         self._checkout, self._checkpoint, self._limits = checkout, checkpoint, limits or Limits()
         if self._hub:
+            if self._hub not in HUB_MODELS:
+                raise GenmojoError("argument", f"there is no model '{self._hub}'", "cotracker",
+                                   f"use one of {', '.join(HUB_MODELS)}")  # fmt: skip
             if not consent:
                 raise GenmojoError("argument", "would download and run code by torch.hub", "cotracker",
                                    "agree first, or give a local checkout")  # fmt: skip
@@ -104,11 +116,15 @@ class CoTrackerSeeder:
         scale = np.array(clip.size, np.float64) / size
         held = np.concatenate([queries.t[:, None], queries.xy * scale - CENTRE], axis=1)
 
-        def run(frames: np.ndarray, asked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-            return self._child(frames, asked, cancelled)
-
         window = min(self._limits.window, max(len(clip), WINDOWS[0]))
         while True:
+            turns = _Turns(len(_jobs(len(clip), window, held[:, 0])[1]), progress)
+
+            def run(frames: np.ndarray, asked: np.ndarray, turns: _Turns = turns) -> tuple[np.ndarray, np.ndarray]:
+                found = self._child(frames, asked, turns.tell, cancelled)
+                turns.done += 1
+                return found
+
             try:
                 xy, seen = in_windows(clip.frames, held, window, run, progress)
                 break
@@ -121,21 +137,23 @@ class CoTrackerSeeder:
         return PointTracks(tracks.xy, tracks.state, queries.object, clip.source_size, conf=conf)
 
     def _child(
-        self, frames: np.ndarray, queries: np.ndarray, cancelled: Cancelled | None
+        self, frames: np.ndarray, queries: np.ndarray, tell: Callable[[float], None], cancelled: Cancelled | None
     ) -> tuple[np.ndarray, np.ndarray]:
         """One window in a process of its own: (T, N, 2) and (T, N)."""
         with tempfile.TemporaryDirectory(prefix="genmojo-cotracker-") as folder:
-            asked, answer, words = (Path(folder) / name for name in ("asked.npz", "answer.npz", "words.txt"))
-            write_arrays(asked, {"video": frames, "queries": queries.astype(np.float32)})
+            asked, answer, words, shares = (Path(folder) / name for name in _FILES)
+            shares.touch()
+            with open(asked, "wb") as file:  # as it is: to compress it takes seconds in which nobody could cancel
+                np.savez(file, video=frames, queries=queries.astype(np.float32))
             command = [sys.executable, "-m", _PROCESS, str(asked), str(answer), str(self._checkout.absolute()),
                        str(self._checkpoint.absolute()) if self._checkpoint else "", self._hub,
-                       str(self._limits.memory_gib)]  # fmt: skip
+                       str(self._limits.memory_gib), str(shares)]  # fmt: skip
             environment = os.environ | {"TORCH_FORCE_WEIGHTS_ONLY_LOAD": "1"}
             with (
                 open(words, "wb") as said,
                 subprocess.Popen(command, stdout=said, stderr=said, env=environment) as child,
             ):
-                self._watch(child, cancelled)
+                self._watch(child, lambda: tell(_last_share(shares)), cancelled)
             if child.returncode != 0 or not answer.is_file():
                 said_last = words.read_text(errors="replace").strip()
                 if _is_out_of_memory(child.returncode, said_last):
@@ -151,14 +169,38 @@ class CoTrackerSeeder:
             raise GenmojoError("schema", f"gave tracks {arrays['tracks'].shape} for {shape}", str(self._checkout))
         return arrays["tracks"], arrays["visibility"].astype(bool)
 
-    def _watch(self, child: subprocess.Popen[bytes], cancelled: Cancelled | None) -> None:
+    def _watch(self, child: subprocess.Popen[bytes], tell: Callable[[], None], cancelled: Cancelled | None) -> None:
         """Wait; stop it when time is up or the user says so."""
         until = time.monotonic() + self._limits.seconds
         while child.poll() is None:
             if (cancelled is not None and cancelled()) or time.monotonic() > until:
                 child.kill()
                 raise GenmojoError("argument", "was stopped before it was done", "cotracker")
+            tell()
             time.sleep(0.05)
+
+
+@dataclass
+class _Turns:
+    """How many windows there are to do and are done; tells the share of the whole when it is more than before."""
+
+    count: int
+    progress: Progress | None
+    done: int = 0
+    told: float = 0.0
+
+    def tell(self, share: float) -> None:
+        """The share of the window that runs."""
+        whole = (self.done + share) / max(self.count, 1)
+        if self.progress is not None and whole > self.told:
+            self.told = whole
+            self.progress(whole)
+
+
+def _last_share(path: Path) -> float:
+    """The share that the child told last, 0 if it told none; the end of what it is writing counts when it is whole."""
+    lines = path.read_text(encoding="ascii").split("\n")[:-1]
+    return float(lines[-1]) if lines else 0.0
 
 
 def _is_out_of_memory(code: int, words: str) -> bool:
@@ -180,16 +222,11 @@ def in_windows(
     windows overlap by 8 frames or more, go on from its last seen place in the shared frames; a window is run with the
     queries that have reached it. `run` gets the window's frames and queries with times counted in the window.
     """
-    total, step = len(frames), max(window - _OVERLAP, 1)
-    starts = [0] if total <= window else [*range(0, total - window, step), total - window]
+    total = len(frames)
+    starts, jobs, home = _jobs(total, window, queries[:, 0])
     xy = np.full((total, len(queries), 2), np.nan, np.float32)
     seen = np.zeros((total, len(queries)), bool)
     known = np.zeros((total, len(queries)), bool)
-    times = queries[:, 0].astype(int)
-    home = np.array([max(k for k, s in enumerate(starts) if s <= t < s + window) for t in times], int)
-    jobs = [(k, np.flatnonzero(home <= k)) for k in range(len(starts))]
-    jobs += [(k, np.flatnonzero(home > k)) for k in reversed(range(len(starts)))]
-    jobs = [(k, rows) for k, rows in jobs if len(rows)]
     for turn, (k, rows) in enumerate(jobs):
         first, end = starts[k], min(starts[k] + window, total)
         asked = np.array([_entry(queries[n], home[n] == k, first, end, (xy[:, n], seen[:, n], known[:, n]))
@@ -202,6 +239,16 @@ def in_windows(
         if progress is not None:
             progress((turn + 1) / len(jobs))
     return xy, seen
+
+
+def _jobs(total: int, window: int, times: np.ndarray) -> tuple[list[int], list[tuple[int, np.ndarray]], np.ndarray]:
+    """First frames of the windows; which window is run in turn with which queries (rows); the window each begins in."""
+    step = max(window - _OVERLAP, 1)
+    starts = [0] if total <= window else [*range(0, total - window, step), total - window]
+    home = np.array([max(k for k, s in enumerate(starts) if s <= t < s + window) for t in times.astype(int)], int)
+    jobs = [(k, np.flatnonzero(home <= k)) for k in range(len(starts))]
+    jobs += [(k, np.flatnonzero(home > k)) for k in reversed(range(len(starts)))]
+    return starts, [(k, rows) for k, rows in jobs if len(rows)], home
 
 
 def _entry(

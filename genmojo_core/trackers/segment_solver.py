@@ -16,7 +16,7 @@ from genmojo_core.trackers.guide import Guide
 from genmojo_core.trackers.object_motion import ObjectMotion
 
 SPANS = (1, 2, 3, 4, 6, 8)  # frames between the ends of a link
-GUIDED = 0.1  # weight of going as a proposal does, on top of its confidence
+GUIDED = 0.03  # weight of going as a proposal does, times its confidence: keys, px and OA of acceptance 5
 HIDDEN = 0.03  # weight of the object's motion where the point's own match is not seen
 SMOOTH = 0.006  # weight of going straight on
 _SCALE = 0.6  # held px of disagreement from which a link counts less

@@ -3,7 +3,9 @@ weights only, faults in one sentence. Not covered: CoTracker itself."""
 
 from __future__ import annotations
 
+import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +15,7 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.npz import read_arrays, write_arrays
 from genmojo_core.trackers import cotracker_process
-from genmojo_core.trackers.cotracker import CoTrackerSeeder, Limits, in_windows, machine_gib
+from genmojo_core.trackers.cotracker import HUB_MODELS, CoTrackerSeeder, Limits, in_windows, machine_gib
 from genmojo_core.trackers.seeding import Queries, make
 from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE
 
@@ -199,3 +201,137 @@ def test_limits_are_checked_and_fit_the_machine() -> None:
             Limits(**wrong)
     with pytest.raises(GenmojoError, match="no limits"):
         make("cotracker", "hub:cotracker3_offline", consent="yes", window="3")
+
+
+ONLINE = """
+import torch
+
+class CoTrackerOnlinePredictor(torch.nn.Module):  # as in the sources: bits of two steps, everything so far comes back
+
+    def __init__(self, step=4):
+        super().__init__()
+        self.step, self.seen = step, None
+
+    @torch.no_grad()
+    def forward(self, video_chunk, is_first_step=False, queries=None, grid_size=10, add_support_grid=False):
+        if is_first_step:
+            self.queries, self.seen = queries, 0
+            return None, None
+        T = video_chunk.shape[1]
+        if T > 2 * self.step:
+            raise ValueError("video chunk must be <= window size")
+        self.seen = T if not self.seen else self.seen + min(self.step, T - self.step)
+        t = torch.arange(self.seen, dtype=torch.float32)[None, :, None, None]
+        way = t - self.queries[:, None, :, :1]
+        tracks = self.queries[:, None, :, 1:] + way * torch.tensor([2.0, 1.0])
+        tracks = torch.where(way < 0, torch.zeros_like(tracks), tracks)  # nothing is known before the query
+        return tracks, (way[..., 0] >= 0) & (way[..., 0] < 5)
+"""
+STEPS = """
+import torch
+
+class Model(torch.nn.Module):
+    def __init__(self, window_len):
+        super().__init__()
+        self.window_len, self.updateformer, self.fnet = window_len, torch.nn.Identity(), torch.nn.Identity()
+
+class Sliding(Model):
+    def init_video_online_processing(self):
+        pass
+
+class CoTrackerPredictor(torch.nn.Module):
+    def __init__(self, checkpoint="x", offline=True, v2=False, window_len=60):
+        super().__init__()
+        self.model = Model(60) if torch.load(checkpoint)["offline"] else Sliding(8)
+
+    def forward(self, video, queries=None, segm_mask=None, grid_size=0, grid_query_frame=0, backward_tracking=False):
+        T = video.shape[1]
+        windows = 1 if not isinstance(self.model, Sliding) else max(-(-(T - 8) // 4), 0) + 1
+        for _ in range(2):
+            self.model.fnet(video)
+            for _ in range(6 * windows):
+                self.model.updateformer(queries)
+        return queries[:, None, :, 1:].expand(1, T, -1, 2), torch.ones(1, T, queries.shape[1], dtype=torch.bool)
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "version"),
+    [("cotracker2", "2"), ("cotracker2_online", "2"), ("cotracker2v1", None), ("cotracker2v1_online", None),
+     ("cotracker3_offline", None), ("cotracker3_online", None)],
+)  # fmt: skip
+def test_every_model_of_the_hub_is_the_one_that_its_name_says(name: str, version: str | None) -> None:
+    """Its entry points `cotracker2*` make version 3 unless the version is given; the others give it themselves, and
+    twice is a fault."""
+    called: list[tuple[tuple, dict]] = []
+
+    class Torch:
+        class hub:  # noqa: N801
+            @staticmethod
+            def load(*words: str, **options: object) -> str:
+                called.append((words, options))
+                return "model"
+
+    assert cotracker_process._from_hub(Torch, name) == "model"
+    ((words, options),) = called
+    assert words == ("facebookresearch/co-tracker", name) and options.pop("trust_repo") is True
+    assert options == ({} if version is None else {"version": version})
+    assert name in HUB_MODELS and make("cotracker", f"hub:{name}", consent="yes").name == "cotracker"
+
+
+def test_a_model_that_the_hub_does_not_have_is_refused() -> None:
+    with pytest.raises(GenmojoError, match="no model 'cotracker4'.*cotracker3_offline"):
+        make("cotracker", "hub:cotracker4", consent="yes")
+
+
+@pytest.mark.parametrize("frames", [3, 4, 8, 9, 21])
+def test_online_models_are_given_the_video_bit_by_bit_and_both_ways(frames: int) -> None:
+    torch = pytest.importorskip("torch")
+    made: dict = {}
+    exec(compile(ONLINE, "online", "exec"), made)  # noqa: S102
+    model, last = made["CoTrackerOnlinePredictor"](), frames - 1
+    queries = torch.tensor([[[0.0, 5.0, 6.0], [float(last), 50.0, 60.0], [1.0, 7.0, 8.0]]])
+    video = torch.zeros(1, frames, 3, 2, 2)
+    xy, seen = cotracker_process._both_ways(model, video, queries, cotracker_process.Shares(None))
+    way = torch.arange(frames)[:, None] - queries[0, :, 0]
+    speed = torch.tensor([2.0, 1.0])
+    expected = queries[0, None, :, 1:] + way.abs()[..., None] * speed
+    assert torch.allclose(xy[0], expected) and (seen[0] == (way.abs() < 5)).all()
+
+
+@pytest.mark.parametrize(("offline", "frames"), [(True, 10), (False, 10), (False, 30), (False, 6)])
+def test_progress_goes_on_within_a_window(tmp_path: Path, offline: bool, frames: int) -> None:
+    torch = pytest.importorskip("torch")
+    package = tmp_path / "checkout" / "cotracker"
+    package.mkdir(parents=True)
+    (package / "__init__.py").write_text("")
+    slow = STEPS.replace("self.model.updateformer(queries)",
+                         "self.model.updateformer(queries), __import__('time').sleep(0.07)")  # fmt: skip
+    (package / "predictor.py").write_text(slow if frames == 10 and offline else STEPS)
+    torch.save({"offline": offline}, tmp_path / "w.pth")
+    told = tmp_path / "shares.txt"
+    queries = np.array([[0.0, 5.0, 6.0]], np.float32)
+    write_arrays(tmp_path / "asked.npz", {"video": np.zeros((frames, 4, 6, 3), np.uint8), "queries": queries})
+    command = [sys.executable, "-m", "genmojo_core.trackers.cotracker_process", *map(str, (
+        tmp_path / "asked.npz", tmp_path / "answer.npz", package.parent, tmp_path / "w.pth", "", 0, told))]  # fmt: skip
+    subprocess.run(command, check=True)
+    shares = [float(line) for line in told.read_text().split()]
+    assert shares == sorted(shares) and shares[-1] == 1.0 and len(set(shares)) == len(shares) > 10
+    if offline:
+        heard: list[float] = []
+        seeder = CoTrackerSeeder(package.parent, tmp_path / "w.pth")
+        seeder.seed(red_clip(), Queries(np.array([0]), np.array([[20.0, 10.0]]), np.array([1])), heard.append)
+        assert heard == sorted(heard) and heard[-1] == 1.0 and len(heard) > 3, "more than one window's end"
+
+
+def test_cancelling_ends_the_child(checkout: tuple[Path, Path]) -> None:
+    """Its process is gone before the answer: the file that it writes to stays as it is."""
+    alive = checkout[0] / "alive.txt"
+    (checkout[0] / "cotracker" / "predictor.py").write_text(
+        f"import time\nwhile True:\n    open({str(alive)!r}, 'a').write('.')\n    time.sleep(0.01)\n")  # fmt: skip
+    queries = Queries(np.array([0]), np.array([[20.0, 10.0]]), np.array([1]))
+    with pytest.raises(GenmojoError, match="was stopped"):
+        CoTrackerSeeder(*checkout).seed(red_clip(), queries, cancelled=alive.exists)
+    left = alive.read_text()
+    time.sleep(0.1)
+    assert alive.read_text() == left
