@@ -6874,6 +6874,10 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>ergab Spuren {shape} für {shape_2}</translation>
     </message>
     <message>
+      <source>there is no model '{hub}'</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>would download and run code by torch.hub</source>
       <translation>würde über torch.hub Code herunterladen und ausführen</translation>
     </message>
