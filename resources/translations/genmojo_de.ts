@@ -1017,7 +1017,7 @@
     </message>
     <message>
       <source>file</source>
-      <translation type="unfinished" />
+      <translation>Datei</translation>
     </message>
     <message>
       <source>note about this track</source>
@@ -6875,7 +6875,7 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     </message>
     <message>
       <source>there is no model '{hub}'</source>
-      <translation type="unfinished" />
+      <translation>es gibt kein Modell „{hub}“</translation>
     </message>
     <message>
       <source>would download and run code by torch.hub</source>
