@@ -111,6 +111,7 @@ class ReturnedBar(QFrame):
         row.addWidget(self.fixed)
         session.edited.connect(self.refresh)
         session.selected.connect(self.refresh)
+        session.settings_changed.connect(self.refresh)
         self.refresh()
 
     def refresh(self, _touched: object = None) -> None:

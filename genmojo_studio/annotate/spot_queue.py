@@ -38,14 +38,15 @@ class SpotQueue(QObject):
         self._seen: list[_Seen] = []
         self.pins, self.spots = self._arranged()
         session.edited.connect(self._edited)
+        session.settings_changed.connect(self._edited)
 
     def set_spots(self, spots: list[Spot]) -> None:
         """Ranked anew; tracks that are locked, approved or rejected need no look."""
         self._ranked = spots
         self._arrange()
 
-    def _edited(self, _touched: object) -> None:
-        """Something may have come back, been answered or been settled."""
+    def _edited(self, _touched: object = None) -> None:
+        """Something may have come back, been answered or been settled, or another person sits here."""
         if self._arranged() != (self.pins, self.spots):
             self._arrange()
 

@@ -90,10 +90,11 @@ def _refine_missing(annotation: Annotation, points: int, stride: int) -> str:
 
 def _review_missing(annotation: Annotation, points: int, stride: int) -> str:
     tracks = annotation.active()
-    left = [i for i in tracks if i.review not in SETTLED]
-    if left or not tracks:
-        return tr("{n} tracks wait for a decision.").format(n=len(left))
-    return ""
+    waiting = sum(i.review not in (*SETTLED, "needs_fix") for i in tracks)
+    away = len(returned(annotation))
+    parts = [tr("{n} tracks wait for a decision.").format(n=waiting)] if waiting or not tracks else []
+    parts += [tr("{n} were sent back to their annotators.").format(n=away)] if away else []
+    return " ".join(parts)
 
 
 SHORT = {  # what a narrow button says where the menu's text is too long

@@ -27,6 +27,11 @@ def review_name(review: str) -> str:
     return names.get(review, review)
 
 
+def _rounds(count: int) -> str:
+    """How often a track went back to its annotator, "" for never."""
+    return tr("sent back {n} times").format(n=count) if count > 1 else tr("sent back once") if count else ""
+
+
 def point_icon(place: int, number: int, size: int = 16) -> QIcon:
     """A point's glyph in its colour; number from 1, 0 for the object itself."""
     pixmap = QPixmap(size * 2, size * 2)
@@ -132,6 +137,8 @@ class TrackTree(QTreeWidget):
                     text, colour = self._cell(track, kind, known)
                     item.setText(column, text)
                     item.setForeground(column, colour)
+                    if kind == "review" and track is not None:
+                        item.setToolTip(column, _rounds(self._session.annotation.tracks[track].rounds))
             item = self.itemBelow(item)
 
     def _cell(self, track: int | None, kind: str, known: dict[int, tuple[int, int]]) -> tuple[str, QColor]:
@@ -140,7 +147,7 @@ class TrackTree(QTreeWidget):
         session, info = self._session, self._session.annotation.tracks[track]
         plain = self.palette().text().color()
         if kind == "review":
-            return review_name(info.review), plain
+            return review_name(info.review) + (f"  ↩{info.rounds}" if info.rounds else ""), plain
         if kind == "frame":
             keys = session.annotation.keys(track)
             late = tr("frame {n}, late") if len(keys) and keys[0] else tr("frame {n}")

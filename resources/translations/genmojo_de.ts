@@ -1108,6 +1108,18 @@
       <translation> und {n} weitere</translation>
     </message>
     <message>
+      <source>No tracks yet.</source>
+      <translation>Noch keine Spuren.</translation>
+    </message>
+    <message>
+      <source>Stands beside what you do from now on; what was done before keeps its name.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Under which name do you decide? It is asked once on this machine.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>Reject</source>
       <translation>Verwerfen</translation>
     </message>
@@ -1124,8 +1136,28 @@
       <translation>Verlauf der Spur</translation>
     </message>
     <message>
+      <source>Approved: {point}.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Rejected: {point}.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>What is wrong</source>
       <translation>Was stimmt nicht</translation>
+    </message>
+    <message>
+      <source>It is your own track.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Approved by {who}.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Rejected by {who}.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>your name</source>
@@ -1152,24 +1184,44 @@
       <translation>Protokoll, Statistik…</translation>
     </message>
     <message>
-      <source>No tracks yet.</source>
-      <translation>Noch keine Spuren.</translation>
+      <source>It is your own track: let another person look at it too.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Every track is decided: the clip is closed.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>Reviewer</source>
       <translation>Prüfer</translation>
     </message>
     <message>
+      <source>Annotated by {name}.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>The clip is closed: {parts}. Returning or unlocking a track opens it again.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>Returned to {name}: {reason}</source>
       <translation>An {name} zurückgegeben: {reason}</translation>
     </message>
     <message>
-      <source>frame {a}; [ and ] mark more</source>
-      <translation>Bild {a}; [ und ] markieren mehr</translation>
+      <source>nobody named</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>The annotator's note: {note}</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>its annotator</source>
       <translation>ihren Annotator</translation>
+    </message>
+    <message>
+      <source>frame {a}; [ and ] mark more</source>
+      <translation>Bild {a}; [ und ] markieren mehr</translation>
     </message>
     <message>
       <source>The system ended the optimisation; memory may have run out. Close other programs.</source>
@@ -1576,10 +1628,6 @@
       <translation>{n} Punkte in Bildern der Schrittweite sind nicht angenommen.</translation>
     </message>
     <message>
-      <source>{n} tracks wait for a decision.</source>
-      <translation>{n} Spuren warten auf eine Entscheidung.</translation>
-    </message>
-    <message>
       <source>Draw</source>
       <translation>Zeichnen</translation>
     </message>
@@ -1618,6 +1666,14 @@
     <message>
       <source>More than {n} points in frames of the stride are not accepted.</source>
       <translation>Mehr als {n} Punkte in Bildern der Schrittweite sind nicht angenommen.</translation>
+    </message>
+    <message>
+      <source>{n} tracks wait for a decision.</source>
+      <translation>{n} Spuren warten auf eine Entscheidung.</translation>
+    </message>
+    <message>
+      <source>{n} were sent back to their annotators.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>Stabilised strip of the active point</source>
@@ -1864,6 +1920,10 @@
       <translation>freigegeben</translation>
     </message>
     <message>
+      <source>sent back once</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>doubt</source>
       <translation>Zweifel</translation>
     </message>
@@ -1874,6 +1934,10 @@
     <message>
       <source>Objects and points</source>
       <translation>Objekte und Punkte</translation>
+    </message>
+    <message>
+      <source>sent back {n} times</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>frame {n}, late</source>

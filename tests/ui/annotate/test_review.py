@@ -5,6 +5,7 @@ from annotating import refine
 
 from genmojo_core.tracks import edit_tracks
 from genmojo_core.tracks.suspicion import Spot
+from genmojo_studio.settings import Settings
 
 
 @pytest.fixture
@@ -97,3 +98,95 @@ def test_a_person_who_is_not_the_annotator_is_told_whose_tracks_came_back(worksp
     assert queue.spots[1].reasons[1] == "for Cy"
     lines = workspace.refine.returned.text.text().split("\n")
     assert lines[0].startswith("2 tracks came back") and lines[1].startswith("Yours: ") and lines[2].startswith("Cy: ")
+
+
+@pytest.fixture
+def nameless():
+    """A machine on which nobody has said a name yet."""
+    before = Settings().text("person")
+    Settings().put("person", "")
+    yield
+    Settings().put("person", before)
+
+
+def test_the_name_is_asked_once_kept_for_later_and_changes_only_what_comes_after(nameless, workspace, said):
+    session, page = workspace.session, workspace.review
+    one, other, third = list(session.annotation.tracks)[:3]
+    workspace.show_step(3)
+    assert page.ask.isVisible() and page.person.text() == "Ada"
+    session.select_track(one)
+    page.approve_button.click()
+    assert Settings().text("person") == "Ada" and page.ask.isHidden(), "the first decision answers"
+    page.person.setText("Bea")  # and no Enter: the next decision is under this name all the same
+    session.select_track(other)
+    workspace.table.trigger("annotate.review.approve")
+    tracks = session.annotation.tracks
+    assert (tracks[one].reviewer, tracks[other].reviewer) == ("Ada", "Bea")
+    assert [r.who for r in session.project.history() if r.title == "Approve"] == ["Ada", "Bea"]
+    page.person.setText("Cy")
+    page.person.editingFinished.emit()
+    session.select_track(one)
+    page.approve_button.click()
+    assert "approved already" in said[-1] and session.annotation.tracks[one].reviewer == "Ada"
+    assert workspace.person() == "Cy", "who is named when the next clip is opened"
+    page.person.setText("  ")
+    page.person.editingFinished.emit()
+    assert page.person.text() == "Cy"
+    assert third in tracks
+
+
+def test_deciding_on_ones_own_track_is_possible_and_told(workspace, said):
+    session, page = workspace.session, workspace.review
+    one, other = list(session.annotation.tracks)[:2]
+    session.do(edit_tracks.update_track(session.annotation, other, person="Cy"))
+    workspace.show_step(3)
+    session.select_track(one)
+    assert "It is your own track." in page.about.text()
+    page.approve_button.click()
+    assert session.annotation.tracks[one].review == "approved" and "your own track" in said[-1]
+    session.select_track(other)
+    assert "Annotated by Cy." in page.about.text() and "own track" not in page.about.text()
+    page.fix_button.click()
+    assert said[-1] == "Returned to Cy: drift"
+
+
+def test_step_four_tells_rounds_words_of_both_sides_and_when_the_clip_is_closed(workspace, said, qtbot):
+    session, page = workspace.session, workspace.review
+    tracks = list(session.annotation.tracks)
+    one = tracks[0]
+    session.do(edit_tracks.update_track(session.annotation, one, note="blurred"))
+    for run in ((4, 8), (5, 6)):
+        send_back(workspace, one, run=run)
+        session.do(edit_tracks.fixed(session.annotation, one))
+    workspace.show_step(3)
+    session.select_track(one)
+    item = page.tree.topLevelItem(0).child(0)
+    qtbot.waitUntil(lambda: item.text(1) == "fixed  ↩2", timeout=60_000)
+    assert item.toolTip(1) == "sent back 2 times"
+    for words in ("Sent back by Bea, round 2: drift, frames 5 to 6.", "left ear", "The annotator's note: blurred"):
+        assert words in page.about.text()
+    session.select_track(tracks[-1])
+    page.approve_button.click()
+    assert (session.track, session.frame) == (one, 5), "what was fixed is looked at first, where it was wrong"
+    for _ in tracks[1:]:
+        assert "closed" not in page.summary.text()
+        page.approve_button.click()
+    assert "The clip is closed" in page.summary.text() and "the clip is closed" in said[-1]
+    page.fix_button.click()
+    assert "closed" not in page.summary.text()
+
+
+def test_what_was_typed_about_a_track_goes_with_no_other(workspace, said):
+    session, page = workspace.session, workspace.review
+    one, other = list(session.annotation.tracks)[:2]
+    workspace.show_step(3)
+    session.select_track(one)
+    page.note.setText("slips")
+    session.select_track(other)
+    assert page.note.text() == ""
+    page.fix_button.click()
+    assert session.annotation.tracks[other].review_note == ""
+    session.select_track(one)
+    assert page.note.text() == "slips"
+    page.approve_button.click()
+    assert session.annotation.tracks[one].review_note == "slips"
