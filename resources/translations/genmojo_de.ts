@@ -1113,11 +1113,11 @@
     </message>
     <message>
       <source>Stands beside what you do from now on; what was done before keeps its name.</source>
-      <translation type="unfinished" />
+      <translation>Steht bei allem, was Sie ab jetzt tun; was vorher geschah, behält seinen Namen.</translation>
     </message>
     <message>
       <source>Under which name do you decide? It is asked once on this machine.</source>
-      <translation type="unfinished" />
+      <translation>Unter welchem Namen entscheiden Sie? Das wird auf diesem Rechner nur einmal gefragt.</translation>
     </message>
     <message>
       <source>Reject</source>
@@ -1137,11 +1137,11 @@
     </message>
     <message>
       <source>Approved: {point}.</source>
-      <translation type="unfinished" />
+      <translation>Freigegeben: {point}.</translation>
     </message>
     <message>
       <source>Rejected: {point}.</source>
-      <translation type="unfinished" />
+      <translation>Verworfen: {point}.</translation>
     </message>
     <message>
       <source>What is wrong</source>
@@ -1149,15 +1149,15 @@
     </message>
     <message>
       <source>It is your own track.</source>
-      <translation type="unfinished" />
+      <translation>Es ist Ihre eigene Spur.</translation>
     </message>
     <message>
       <source>Approved by {who}.</source>
-      <translation type="unfinished" />
+      <translation>Freigegeben von {who}.</translation>
     </message>
     <message>
       <source>Rejected by {who}.</source>
-      <translation type="unfinished" />
+      <translation>Verworfen von {who}.</translation>
     </message>
     <message>
       <source>your name</source>
@@ -1185,11 +1185,11 @@
     </message>
     <message>
       <source>It is your own track: let another person look at it too.</source>
-      <translation type="unfinished" />
+      <translation>Es ist Ihre eigene Spur: lassen Sie auch jemand anderen darauf sehen.</translation>
     </message>
     <message>
       <source>Every track is decided: the clip is closed.</source>
-      <translation type="unfinished" />
+      <translation>Über jede Spur ist entschieden: der Clip ist abgeschlossen.</translation>
     </message>
     <message>
       <source>Reviewer</source>
@@ -1197,11 +1197,11 @@
     </message>
     <message>
       <source>Annotated by {name}.</source>
-      <translation type="unfinished" />
+      <translation>Annotiert von {name}.</translation>
     </message>
     <message>
       <source>The clip is closed: {parts}. Returning or unlocking a track opens it again.</source>
-      <translation type="unfinished" />
+      <translation>Der Clip ist abgeschlossen: {parts}. Eine Spur zurückzugeben oder zu entsperren öffnet ihn wieder.</translation>
     </message>
     <message>
       <source>Returned to {name}: {reason}</source>
@@ -1209,11 +1209,11 @@
     </message>
     <message>
       <source>nobody named</source>
-      <translation type="unfinished" />
+      <translation>niemandem mit Namen</translation>
     </message>
     <message>
       <source>The annotator's note: {note}</source>
-      <translation type="unfinished" />
+      <translation>Notiz zur Spur: {note}</translation>
     </message>
     <message>
       <source>its annotator</source>
@@ -1673,7 +1673,7 @@
     </message>
     <message>
       <source>{n} were sent back to their annotators.</source>
-      <translation type="unfinished" />
+      <translation>{n} sind zur Nacharbeit zurückgegeben.</translation>
     </message>
     <message>
       <source>Stabilised strip of the active point</source>
@@ -1921,7 +1921,7 @@
     </message>
     <message>
       <source>sent back once</source>
-      <translation type="unfinished" />
+      <translation>einmal zurückgegeben</translation>
     </message>
     <message>
       <source>doubt</source>
@@ -1937,7 +1937,7 @@
     </message>
     <message>
       <source>sent back {n} times</source>
-      <translation type="unfinished" />
+      <translation>{n}-mal zurückgegeben</translation>
     </message>
     <message>
       <source>frame {n}, late</source>
