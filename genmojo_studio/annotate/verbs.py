@@ -10,7 +10,7 @@ from genmojo_core.errors import GenmojoError
 from genmojo_core.sentences import say
 from genmojo_core.tracks import edit_tracks, keys
 from genmojo_core.tracks.annotation import CONFIRMED, HUMAN, KEY, SNAPPED, Cells, TrackInfo
-from genmojo_core.tracks.edits import CellsChange, Edit
+from genmojo_core.tracks.edits import CellsChange, Edit, join
 from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
 from genmojo_core.tracks.review import returned
 from genmojo_studio.annotate.session import Painting, Session
@@ -170,7 +170,10 @@ def accept(session: Session, direction: int = 1) -> bool:
     asked = session.track in doubtful
     clear = [t for t in view.ids.tolist() if t not in doubtful or t == session.track]
     if clear:
-        session.do(keys.confirm(annotation, clear, frame))
+        confirmed = keys.confirm(annotation, clear, frame)
+        touched = sorted({c.track for c in confirmed.changes if isinstance(c, CellsChange)})
+        begun = [edit_tracks.begin(annotation, track) for track in touched]
+        session.do(join(confirmed.kind, confirmed.title, [confirmed, *begun]))
         for track in clear:
             session.judged.emit(track, frame, False)
     left = [t for t in doubtful if t != session.track] if asked else doubtful

@@ -2,6 +2,9 @@
 
 import pytest
 from annotating import refine
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
 
 from genmojo_core.tracks import edit_tracks
 from genmojo_core.tracks.suspicion import Spot
@@ -190,3 +193,34 @@ def test_what_was_typed_about_a_track_goes_with_no_other(workspace, said):
     assert page.note.text() == "slips"
     page.approve_button.click()
     assert session.annotation.tracks[one].review_note == "slips"
+
+
+def test_accepting_is_work_and_one_step_takes_it_back(workspace, said):
+    session = workspace.session
+    before = session.annotation.digest()
+    session.go(2)
+    workspace.canvas.setFocus()
+    QTest.keyClick(workspace.canvas, Qt.Key.Key_Return)
+    assert {i.review for i in session.annotation.tracks.values()} == {"in_progress"}
+    session.undo()
+    assert session.annotation.digest() == before
+
+
+def test_a_note_is_typed_and_the_decision_made_from_the_keyboard(workspace, said, qtbot):
+    session, page, track = workspace.session, workspace.review, workspace.session.track
+    workspace.show_step(3)
+    session.go(6)
+    page.note.setFocus()
+    QTest.keyClicks(page.note, "x slips")
+    QTest.keyClick(page.note, Qt.Key.Key_Return, Qt.KeyboardModifier.ControlModifier)
+    info = session.annotation.tracks[track]
+    assert (info.review, info.review_note, page.note.text()) == ("approved", "x slips", "")
+    other = session.track
+    assert other != track
+    workspace.canvas.setFocus()
+    answer = QTimer(workspace, singleShot=True, interval=50)
+    answer.timeout.connect(lambda: QTest.keyClick(QApplication.activePopupWidget(), Qt.Key.Key_2))
+    answer.start()
+    QTest.keyClick(workspace.canvas, Qt.Key.Key_X)
+    info = session.annotation.tracks[other]
+    assert (info.review, info.reason, info.run) == ("needs_fix", "jump", (6, 6))
