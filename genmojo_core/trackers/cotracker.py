@@ -34,17 +34,13 @@ LICENCE = (
     "program; you point to a copy of your own."
 )
 HUB = "hub:"  # instead of a checkout: "hub:cotracker3_offline", downloaded by torch.hub; only with the user's consent
-HUB_MODELS = {  # entry points of its hubconf.py -> what they are
-    "cotracker3_offline": "CoTracker 3, offline",
-    "cotracker3_online": "CoTracker 3, online",
-    "cotracker2": "CoTracker 2, windows of 8 frames",
-    "cotracker2_online": "CoTracker 2, online, windows of 8 frames",
-    "cotracker2v1": "CoTracker 2.1, windows of 16 frames",
-    "cotracker2v1_online": "CoTracker 2.1, online, windows of 16 frames",
-}
+HUB_MODELS = (  # entry points of its hubconf.py: version 3; version 2 with windows of 8 and of 16 frames (v1)
+    "cotracker3_offline", "cotracker3_online", "cotracker2", "cotracker2_online", "cotracker2v1", "cotracker2v1_online",
+)  # fmt: skip
 _PROCESS = "genmojo_core.trackers.cotracker_process"
 _FILES = ("asked.npz", "answer.npz", "words.txt", "shares.txt")
 _OVERLAP = 8  # frames two windows share
+_START_SECONDS, _FRAME_SECONDS = 8.0, 1.0  # of a window on a CPU: torch and the weights; a frame, both ways
 WINDOWS = (2 * _OVERLAP, 512)  # least and most frames of a window
 
 
@@ -102,8 +98,8 @@ class CoTrackerSeeder:
                                "give CoTracker's weights (.pth)")  # fmt: skip
 
     def forecast(self, clip: Clip, queries: Queries) -> float:
-        """A guess for a CPU: start, and a second a frame."""
-        return 15.0 + 1.0 * len(clip)
+        """A guess for a CPU: of every window start and frames."""
+        return window_seconds(len(clip), self._limits.window, queries.t)
 
     def seed(
         self, clip: Clip, queries: Queries, progress: Progress | None = None, cancelled: Cancelled | None = None
@@ -239,6 +235,13 @@ def in_windows(
         if progress is not None:
             progress((turn + 1) / len(jobs))
     return xy, seen
+
+
+def window_seconds(frames: int, window: int, times: np.ndarray) -> float:
+    """A guess of what queries in frames times (N,) take in windows of at most `window` frames."""
+    window = min(window, max(frames, WINDOWS[0]))
+    starts, jobs, _ = _jobs(frames, window, times)
+    return sum(_START_SECONDS + _FRAME_SECONDS * (min(starts[k] + window, frames) - starts[k]) for k, _ in jobs)
 
 
 def _jobs(total: int, window: int, times: np.ndarray) -> tuple[list[int], list[tuple[int, np.ndarray]], np.ndarray]:

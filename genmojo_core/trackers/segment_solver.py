@@ -8,6 +8,7 @@ sum w |x_t - link_st(x_s)|^2 + smoothness, w from the match and a Cauchy weight 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -63,7 +64,7 @@ def solve_points(
 
 
 def _seen(
-    motion: ObjectMotion, found: list[tuple[int, int, tuple[np.ndarray, ...]]], slid: np.ndarray
+    motion: ObjectMotion, found: Sequence[tuple[int, int, tuple[np.ndarray, ...]]], slid: np.ndarray
 ) -> tuple[np.ndarray, ...]:  # s, t (M,), linear (M, 2, 2), place (M, n, 2), weight (M, n)
     """What the links of the pictures say of all points."""
     s, t = np.array([f[0] for f in found]), np.array([f[1] for f in found])

@@ -140,6 +140,10 @@ class TrackSolver:
         xy[rows] = solve_points(motion, xy[rows], fixed[rows], first, end, slid[rows], mine)
         return SolveAnswer(request, self._cells(motion, request, xy, mine, (rows, first, end)))
 
+    def has_matched(self, object_id: int) -> bool:
+        """Whether the object was asked about before, so that answers are quick; on any thread."""
+        return object_id in self._motions
+
     def follow(self, request: SolveRequest, t: int) -> SolveAnswer:
         """The point of the request's key in one other frame t, by the match of these two frames alone.
 
@@ -208,7 +212,7 @@ class TrackSolver:
             mask = self._clip.object_mask(int(at[0]))
             masks: Channel = self._clip.masks  # type: ignore[assignment]
             layer = Layer(self._shade, mask, (masks.value > 0) & ~mask)
-            self._motions[object_id] = ObjectMotion(layer, masks.valid.any(axis=(1, 2)))
+            self._motions[object_id] = ObjectMotion(layer, np.any(masks.valid, axis=(1, 2)))
         return self._motions[object_id]
 
 

@@ -5,27 +5,21 @@ What a tracker finds is a proposal: places and states that a person gave are nev
 
 from __future__ import annotations
 
-import datetime
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
-from PySide6.QtCore import QUrl
-from PySide6.QtGui import QDesktopServices
+from PySide6.QtCore import QElapsedTimer, QTimer
 from PySide6.QtWidgets import (
     QButtonGroup,
-    QCheckBox,
     QComboBox,
     QDialog,
     QDialogButtonBox,
-    QFileDialog,
     QFormLayout,
     QHBoxLayout,
     QLabel,
-    QLineEdit,
     QProgressBar,
-    QPushButton,
     QRadioButton,
-    QSpinBox,
     QVBoxLayout,
     QWidget,
 )
@@ -33,17 +27,27 @@ from PySide6.QtWidgets import (
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.npz import write_tracks
 from genmojo_core.trackers import seeding
-from genmojo_core.trackers.cotracker import WINDOWS, machine_gib
+from genmojo_core.trackers.cotracker import window_seconds
 from genmojo_core.tracks.supervision import said_by_people
 from genmojo_studio.annotate import hand_masks
 from genmojo_studio.annotate.scene_job import SUFFIX, Forecast, SceneJob
+from genmojo_studio.annotate.seed_forecast import Speeds, foretold, so_far
+from genmojo_studio.annotate.seed_options import CoTrackerOptions, PathLine
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.work import Work
 from genmojo_studio.settings import Settings
 from genmojo_studio.translate import decimal, fault, tr
 
 MINUTES = (1, 2, 5, 10)
-_TERMS = "https://creativecommons.org/licenses/by-nc/4.0/"
+
+
+@dataclass(frozen=True)
+class _Guess:
+    """What a run of one kind of tracker ("" for none that is measured) is guessed to take, and for how many points."""
+
+    kind: str
+    seconds: float
+    points: int
 
 
 class SeedDialog(QDialog):
@@ -52,6 +56,10 @@ class SeedDialog(QDialog):
     def __init__(self, session: Session, work: Work, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session, self._work, self._settings = session, work, Settings()
+        self._speeds, self._guessed = Speeds(self._settings), _Guess("", 0.0, 0)
+        self.cotracker = CoTrackerOptions(self._settings)
+        self.checkout, self.weights, self.consent = (
+            self.cotracker.checkout, self.cotracker.weights, self.cotracker.consent)  # fmt: skip
         self.job: SceneJob | None = None
         self._expected = Forecast(0.0, 1.0)
         self.setWindowTitle(tr("Seed tracks"))
@@ -71,6 +79,9 @@ class SeedDialog(QDialog):
         self.active_only = self._scope.button(1)
         scope.addStretch()
         column.addLayout(scope)
+        self.forecast = QLabel(wordWrap=True)
+        self.forecast.setProperty("role", "dim")
+        column.addWidget(self.forecast)
         self.note = QLabel(tr("Your keys, accepted places and painted states stay as they are."), wordWrap=True)
         column.addWidget(self.note)
         self.progress = QProgressBar()
@@ -83,7 +94,13 @@ class SeedDialog(QDialog):
         column.addWidget(self.buttons)
         self.start.clicked.connect(self._start)
         self.buttons.rejected.connect(self.reject)
+        self._clock, self._tick, self._share = QElapsedTimer(), QTimer(self, interval=500), 0.0
+        self._tick.timeout.connect(self._tell_time)
         self._trackers.idClicked.connect(self._show_options)
+        for signal in (self._scope.idClicked, self.scene.changed, self.minutes.currentIndexChanged, self.file.changed,
+                       self.cotracker.changed):  # fmt: skip
+            signal.connect(self._foretell)
+        work.clip_ready.connect(self._foretell)
         work.tracker.progressed.connect(self._progressed)
         work.tracker.seeded.connect(self._seeded)
         session.said.connect(self.note.setText)  # a window-modal dialog hides what the status line says
@@ -124,7 +141,7 @@ class SeedDialog(QDialog):
             (tr("Solve from scene"), tr("Optimises a 4D scene that follows what you placed so far and takes its "
              "tracks, which go on behind what hides them."), self._scene_options),
             (tr("CoTracker (yours)"), tr("A checkout and weights that you have. CC BY-NC 4.0: no commercial use. It "
-             "runs in a process of its own."), self._cotracker_options),
+             "runs in a process of its own."), lambda: self.cotracker),
             (tr("From a file"), tr("Tracks of this clip that somebody made before: TAP-Vid, CoTracker or ours (npz)."),
              self._file_options),
         ]  # fmt: skip
@@ -155,13 +172,18 @@ class SeedDialog(QDialog):
             self.minutes.addItem(title, str(path))
         last = self.minutes.findData(int(self._settings.text("seed/minutes", "1")))
         self.minutes.setCurrentIndex(max(last, 0))
-        self.scene = _PathLine(tr("or a scene of this clip that exists"), "scene.h5 (*.h5)")
+        self.scene = PathLine(tr("or a scene of this clip that exists"), "scene.h5 (*.h5)")
         form.addRow(tr("Time"), self.minutes)
         form.addRow(tr("Scene"), self.scene)
         return inside
 
     def _forecast(self, seconds: float) -> Forecast:
         return Forecast.of(seconds, self._session.annotation)
+
+    def _scene_path(self) -> str:
+        """The scene that is there already and was chosen, "" where one is to be optimised."""
+        path = self.scene.text() or str(self.minutes.currentData())
+        return path if path.endswith(".h5") else ""
 
     def _scenes_there(self) -> list[tuple[str, Path]]:
         """Scenes of this clip that can be taken at once: this project's last one, the one on show in Watch."""
@@ -175,58 +197,58 @@ class SeedDialog(QDialog):
     def _clip_path(self) -> Path:
         return Path(self._session.project.info.path)
 
-    def _cotracker_options(self) -> QWidget:
-        inside = QWidget()
-        form = QFormLayout(inside)
-        self.origin = QComboBox()
-        self.origin.addItem(tr("a folder of mine"), "")
-        self.origin.addItem(tr("CoTracker 3, downloaded by torch.hub"), "hub:cotracker3_offline")
-        self.origin.addItem(tr("CoTracker 2, downloaded by torch.hub"), "hub:cotracker2")
-        self.checkout = _PathLine(tr("folder of CoTracker's source"), "", self._settings.text("cotracker/checkout"))
-        self.weights = _PathLine(tr("its weights (.pth)"), "*.pth", self._settings.text("cotracker/weights"))
-        self.consent = QCheckBox(tr("I have read its licence, and this use is not commercial"))
-        self.download = QCheckBox(tr("Its code and weights may be downloaded and run"))
-        form.addRow(tr("From"), self.origin)
-        form.addRow(tr("Source"), self.checkout)
-        form.addRow(tr("Weights"), self.weights)
-        self.at_once = QSpinBox(minimum=WINDOWS[0], maximum=WINDOWS[1], suffix=tr(" frames"))
-        self.memory = QSpinBox(minimum=1, maximum=4096, suffix=tr(" GiB"))
-        self.at_once.setValue(int(self._settings.text("cotracker/window", "64")))
-        self.memory.setValue(int(self._settings.text("cotracker/memory", f"{0.8 * machine_gib():.0f}")))
-        form.addRow(tr("At once"), self.at_once)
-        form.addRow(tr("Memory"), self.memory)
-        licence = QPushButton(tr("Its licence: CC BY-NC 4.0…"))
-        licence.clicked.connect(lambda: QDesktopServices.openUrl(QUrl(_TERMS)))
-        form.addRow(licence)
-        form.addRow(self.download)
-        form.addRow(self.consent)
-        self.consent.setChecked(bool(self._settings.text("cotracker/licence")))
-
-        def show_origin() -> None:
-            hub = bool(self.origin.currentData())
-            for widget, on in ((self.checkout, not hub), (self.weights, not hub), (self.download, hub)):
-                form.setRowVisible(widget, on)
-
-        self.origin.currentIndexChanged.connect(show_origin)
-        show_origin()
-        return inside
-
     def _file_options(self) -> QWidget:
         inside = QWidget()
         form = QFormLayout(inside)
-        self.file = _PathLine(tr("npz file"), "npz (*.npz)")
+        self.file = PathLine(tr("npz file"), "npz (*.npz)")
         form.addRow(tr("File"), self.file)
         return inside
 
     def _show_options(self, chosen: int) -> None:
         for n, name in enumerate(seeding.NAMES):
             self.options[name].setVisible(n == chosen and name != "optical")
+        self._foretell()
+
+    # ---- how long it will take
+
+    def _guess(self) -> _Guess | None:
+        """What a run would take as things stand, as the trackers guess it; None where there is nothing to run yet."""
+        session, name, clip = self._session, self.choice(), self._session.clip
+        asked = [i.id for o in self.objects() for i in session.annotation.tracks_of(o)]
+        ids, queries = seeding.Queries.of(session.annotation, asked)
+        scene, file = self._scene_path(), self.file.text()
+        if clip is None or not ids or (name == "scene" and not scene) or (name == "file" and not Path(file).is_file()):
+            return None
+        if name == "cotracker":
+            return _Guess(self.cotracker.kind(),
+                          window_seconds(len(clip), self.cotracker.at_once.value(), queries.t), len(ids))  # fmt: skip
+        if name == "optical":
+            return _Guess(name, self._work.tracker.optical_seconds(clip, queries), len(ids))
+        return _Guess(name, seeding.make(name, scene or file).forecast(clip, queries), len(ids))
+
+    def _foretell(self) -> None:
+        """Say how long it will take; where a scene is to be optimised first its own line says so."""
+        guess = self._guess()
+        self.forecast.setVisible(guess is not None)
+        if guess is not None:
+            seconds, measured = self._speeds.seconds(guess.kind, guess.seconds)
+            frames = self._session.annotation.frames
+            self.forecast.setText(foretold(seconds, measured, guess.points, frames))
         self._fit()
+
+    def _tell_time(self) -> None:
+        """The time so far and the time to go, on the progress bar."""
+        if self.job is None:
+            expected = self._speeds.seconds(self._guessed.kind, self._guessed.seconds)[0]
+        else:
+            expected = self._expected.whole
+        self.progress.setFormat(so_far(self._share, self._clock.elapsed() / 1000, expected))
 
     # ---- what is done
 
     def _start(self) -> None:
         try:
+            self._guessed = self._guess() or _Guess("", 0.0, 0)
             started = self._begin(self.choice())
         except GenmojoError as error:
             self.note.setText(fault(error))
@@ -236,6 +258,12 @@ class SeedDialog(QDialog):
 
     def _show_running(self, on: bool) -> None:
         """While it runs nothing can be chosen; when it failed, everything can again."""
+        if on:
+            self._clock.start()
+            self._tick.start()
+            self._show_share(0.0)
+        else:
+            self._tick.stop()
         self.progress.setVisible(on)
         for widget in (self.start, *self._trackers.buttons(), *self._scope.buttons(), *self.options.values()):
             widget.setEnabled(not on)
@@ -252,28 +280,15 @@ class SeedDialog(QDialog):
         if name == "optical":
             return tracker.seed(self.objects())
         if name == "scene":
-            path = self.scene.text() or str(self.minutes.currentData())
-            made = seeding.make("scene", path) if path.endswith(".h5") else None
+            path = self._scene_path()
+            made = seeding.make("scene", path) if path else None
             return tracker.seed_by(made, self.objects()) if made is not None else self._optimise()
         if name == "file":
             return tracker.seed_by(seeding.make("file", self.file.text() or None), self.objects())
-        if not self.consent.isChecked():
+        if not self.cotracker.consent.isChecked():
             self.note.setText(tr("CoTracker's licence has to be agreed to first."))
             return False
-        return tracker.seed_by(self._cotracker(), self.objects())
-
-    def _cotracker(self) -> seeding.Seeder:
-        """CoTracker as it was chosen; what was chosen and agreed to is remembered. Raises GenmojoError."""
-        self._settings.put("cotracker/licence", datetime.date.today().isoformat())
-        limits = {"window": str(self.at_once.value()), "memory": str(self.memory.value())}
-        for key, text in limits.items():
-            self._settings.put(f"cotracker/{key}", text)
-        hub = str(self.origin.currentData())
-        if hub:
-            return seeding.make("cotracker", hub, consent="yes" if self.download.isChecked() else "", **limits)
-        self._settings.put("cotracker/checkout", self.checkout.text())
-        self._settings.put("cotracker/weights", self.weights.text())
-        return seeding.make("cotracker", self.checkout.text() or None, checkpoint=self.weights.text(), **limits)
+        return tracker.seed_by(self.cotracker.seeder(), self.objects())
 
     def _optimise(self) -> bool:
         """Optimise a scene from what people said: points placed and accepted, masks cut out by hand."""
@@ -321,42 +336,16 @@ class SeedDialog(QDialog):
         self._show_share(before + (1.0 - before) * share)
 
     def _show_share(self, share: float) -> None:
+        self._share = share
         self.progress.setValue(round(100 * share))
+        self._tell_time()
 
     def _seeded(self, tracks: int) -> None:
         if not self.progress.isVisible():
             return
         if tracks:
+            if self._guessed.kind and self.job is None:
+                self._speeds.learn(self._guessed.kind, self._guessed.seconds, self._clock.elapsed() / 1000)
             self.accept()
         else:
             self._show_running(False)  # why has been said
-
-
-class _PathLine(QWidget):
-    """A path to type or to choose; without a filter a folder is meant."""
-
-    def __init__(self, hint: str, kinds: str, path: str = "") -> None:
-        super().__init__()
-        self._kinds = kinds
-        self.line = QLineEdit(path, placeholderText=hint)
-        self.line.setAccessibleName(hint)
-        button = QPushButton("…")
-        button.setAccessibleName(tr("Choose"))
-        button.setFixedWidth(32)
-        button.clicked.connect(self._choose)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.line)
-        row.addWidget(button)
-
-    def text(self) -> str:
-        """The path, "" if there is none."""
-        return self.line.text().strip()
-
-    def _choose(self) -> None:
-        if self._kinds:
-            chosen, _ = QFileDialog.getOpenFileName(self, self.line.placeholderText(), self.text(), self._kinds)
-        else:
-            chosen = QFileDialog.getExistingDirectory(self, self.line.placeholderText(), self.text())
-        if chosen:
-            self.line.setText(chosen)

@@ -1264,58 +1264,6 @@
       <translation>Szene</translation>
     </message>
     <message>
-      <source>a folder of mine</source>
-      <translation>ein eigener Ordner</translation>
-    </message>
-    <message>
-      <source>CoTracker 3, downloaded by torch.hub</source>
-      <translation>CoTracker 3, von torch.hub geladen</translation>
-    </message>
-    <message>
-      <source>CoTracker 2, downloaded by torch.hub</source>
-      <translation>CoTracker 2, von torch.hub geladen</translation>
-    </message>
-    <message>
-      <source>folder of CoTracker's source</source>
-      <translation>Ordner mit dem Quelltext von CoTracker</translation>
-    </message>
-    <message>
-      <source>its weights (.pth)</source>
-      <translation>seine Gewichte (.pth)</translation>
-    </message>
-    <message>
-      <source>I have read its licence, and this use is not commercial</source>
-      <translation>Ich habe die Lizenz gelesen, und diese Nutzung ist nicht kommerziell</translation>
-    </message>
-    <message>
-      <source>Its code and weights may be downloaded and run</source>
-      <translation>Sein Code und seine Gewichte dürfen geladen und ausgeführt werden</translation>
-    </message>
-    <message>
-      <source>From</source>
-      <translation>Von</translation>
-    </message>
-    <message>
-      <source>Source</source>
-      <translation>Quelltext</translation>
-    </message>
-    <message>
-      <source>Weights</source>
-      <translation>Gewichte</translation>
-    </message>
-    <message>
-      <source>At once</source>
-      <translation>Auf einmal</translation>
-    </message>
-    <message>
-      <source>Memory</source>
-      <translation>Speicher</translation>
-    </message>
-    <message>
-      <source>Its licence: CC BY-NC 4.0…</source>
-      <translation>Ihre Lizenz: CC BY-NC 4.0…</translation>
-    </message>
-    <message>
       <source>npz file</source>
       <translation>npz-Datei</translation>
     </message>
@@ -1372,14 +1320,6 @@
       <translation>die letzte Szene dieses Projekts, sofort</translation>
     </message>
     <message>
-      <source> frames</source>
-      <translation> Bilder</translation>
-    </message>
-    <message>
-      <source> GiB</source>
-      <translation> GiB</translation>
-    </message>
-    <message>
       <source>CoTracker's licence has to be agreed to first.</source>
       <translation>Der Lizenz von CoTracker muss zuerst zugestimmt werden.</translation>
     </message>
@@ -1398,6 +1338,90 @@
     <message>
       <source>{n} min of optimising, ready in about {m} min</source>
       <translation>{n} min optimieren, fertig in etwa {m} min</translation>
+    </message>
+    <message>
+      <source>{percent} % – {gone} so far, {left} to go</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>a moment</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>{points} points in {frames} frames: {time}, by what this machine needed before.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>{points} points in {frames} frames: {time}, a guess; it has not run on this machine yet.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>about {n} min</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>about {n} s</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>{percent} % – {gone} so far, longer than expected</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>a folder of mine</source>
+      <translation>ein eigener Ordner</translation>
+    </message>
+    <message>
+      <source>folder of CoTracker's source</source>
+      <translation>Ordner mit dem Quelltext von CoTracker</translation>
+    </message>
+    <message>
+      <source>its weights (.pth)</source>
+      <translation>seine Gewichte (.pth)</translation>
+    </message>
+    <message>
+      <source>I have read its licence, and this use is not commercial</source>
+      <translation>Ich habe die Lizenz gelesen, und diese Nutzung ist nicht kommerziell</translation>
+    </message>
+    <message>
+      <source>Its code and weights may be downloaded and run</source>
+      <translation>Sein Code und seine Gewichte dürfen geladen und ausgeführt werden</translation>
+    </message>
+    <message>
+      <source>From</source>
+      <translation>Von</translation>
+    </message>
+    <message>
+      <source>Source</source>
+      <translation>Quelltext</translation>
+    </message>
+    <message>
+      <source>Weights</source>
+      <translation>Gewichte</translation>
+    </message>
+    <message>
+      <source>At once</source>
+      <translation>Auf einmal</translation>
+    </message>
+    <message>
+      <source>Memory</source>
+      <translation>Speicher</translation>
+    </message>
+    <message>
+      <source>Its licence: CC BY-NC 4.0…</source>
+      <translation>Ihre Lizenz: CC BY-NC 4.0…</translation>
+    </message>
+    <message>
+      <source> frames</source>
+      <translation> Bilder</translation>
+    </message>
+    <message>
+      <source> GiB</source>
+      <translation> GiB</translation>
+    </message>
+    <message>
+      <source>{name}, downloaded by torch.hub</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>{n} of {m} tracks are seeded. Nothing was found for {names}.</source>
