@@ -1341,31 +1341,31 @@
     </message>
     <message>
       <source>{percent} % – {gone} so far, {left} to go</source>
-      <translation type="unfinished" />
+      <translation>{percent} % – {gone} bisher, noch {left}</translation>
     </message>
     <message>
       <source>a moment</source>
-      <translation type="unfinished" />
+      <translation>einen Augenblick</translation>
     </message>
     <message>
       <source>{points} points in {frames} frames: {time}, by what this machine needed before.</source>
-      <translation type="unfinished" />
+      <translation>{points} Punkte in {frames} Bildern: {time}, nach dem, was dieser Rechner zuvor brauchte.</translation>
     </message>
     <message>
       <source>{points} points in {frames} frames: {time}, a guess; it has not run on this machine yet.</source>
-      <translation type="unfinished" />
+      <translation>{points} Punkte in {frames} Bildern: {time}, geschätzt; auf diesem Rechner lief es noch nicht.</translation>
     </message>
     <message>
       <source>about {n} min</source>
-      <translation type="unfinished" />
+      <translation>etwa {n} min</translation>
     </message>
     <message>
       <source>about {n} s</source>
-      <translation type="unfinished" />
+      <translation>etwa {n} s</translation>
     </message>
     <message>
       <source>{percent} % – {gone} so far, longer than expected</source>
-      <translation type="unfinished" />
+      <translation>{percent} % – {gone} bisher, länger als erwartet</translation>
     </message>
     <message>
       <source>a folder of mine</source>
@@ -1421,7 +1421,7 @@
     </message>
     <message>
       <source>{name}, downloaded by torch.hub</source>
-      <translation type="unfinished" />
+      <translation>{name}, von torch.hub geladen</translation>
     </message>
     <message>
       <source>{n} of {m} tracks are seeded. Nothing was found for {names}.</source>
