@@ -92,6 +92,11 @@ class SeedDialog(QDialog):
         self.start = self.buttons.addButton(tr("Seed"), QDialogButtonBox.ButtonRole.ActionRole)
         self.start.setDefault(True)
         column.addWidget(self.buttons)
+        self._connect(work)
+        self._show_options(0)
+
+    def _connect(self, work: Work) -> None:
+        """What is chosen, done and told leads to what is shown."""
         self.start.clicked.connect(self._start)
         self.buttons.rejected.connect(self.reject)
         self._clock, self._tick, self._share = QElapsedTimer(), QTimer(self, interval=500), 0.0
@@ -103,8 +108,7 @@ class SeedDialog(QDialog):
         work.clip_ready.connect(self._foretell)
         work.tracker.progressed.connect(self._progressed)
         work.tracker.seeded.connect(self._seeded)
-        session.said.connect(self.note.setText)  # a window-modal dialog hides what the status line says
-        self._show_options(0)
+        self._session.said.connect(self.note.setText)  # a window-modal dialog hides what the status line says
 
     def choice(self) -> str:
         """Name of the tracker chosen, one of `seeding.NAMES`."""
