@@ -123,6 +123,15 @@ _VIEW = (
     _action("view.in", "Zoom in", "+ =", "About the middle of the frame."),
     _action("view.out", "Zoom out", "-", "About the middle of the frame."),
     _action(
+        "view.time_in",
+        "Zoom in on time",
+        "Ctrl+= Ctrl++",
+        "Fewer frames in dope sheet and graphs; there Ctrl+wheel does it too.",
+        separator=True,
+    ),
+    _action("view.time_out", "Zoom out of time", "Ctrl+-", "More frames in dope sheet and graphs."),
+    _action("view.time_fit", "Whole clip in the dope sheet", "Ctrl+0", "All frames; a double click there does it too."),
+    _action(
         "view.follow", "View follows the point", "L", "Keeps the point in the middle.", checkable=True, cvat="Shift+L"
     ),
     _action("view.loupe", "Loupe while held", "Z", "Now, the key before, the first frame and the difference."),

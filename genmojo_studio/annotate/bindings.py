@@ -45,8 +45,9 @@ def _connect(w: AnnotateWorkspace) -> None:
     session, canvas, work = w.session, w.canvas, w.work
     if session is None:
         return
-    w.play.sheet.began.connect(session.remember)
-    w.play.sheet.seek.connect(session.go)
+    for scrubbed in (w.play.sheet, w.play.timeline):
+        scrubbed.began.connect(session.remember)
+        scrubbed.seek.connect(session.go)
     w.play.sheet.picked.connect(session.select_track)
     for seek in (w.play.graphs.seek, w.strip.seek):
         seek.connect(partial(session.go, jump=True))
@@ -160,6 +161,9 @@ class Hands:
             "view.one": w.canvas.one_to_one,
             "view.in": lambda: w.canvas.zoom_step(1),
             "view.out": lambda: w.canvas.zoom_step(-1),
+            "view.time_in": lambda: w.play.view.zoom(2),
+            "view.time_out": lambda: w.play.view.zoom(-2),
+            "view.time_fit": w.play.view.fit,
             "view.follow": lambda: w.screen_link.set_follow(not w.screen_link.follow),
             "view.loupe_stay": self.loupe_toggle,
             "view.loupe_smooth": w.screen_link.switch_smooth,

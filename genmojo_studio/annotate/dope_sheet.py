@@ -1,37 +1,38 @@
 """The dope sheet: every track's state in every frame at a glance. Click to go there, drag to paint a state.
 
-Fill: visible. Hatch: occluded. Dots: out of view. Empty: not annotated. Diamond: a person's key. Red: suspicious.
-Paler: the tracker was less sure.
-The pattern is made in one numpy picture per change, so that stepping only moves the playhead.
+Ctrl+wheel zooms in time, Shift+wheel or the middle button scrolls in it, a double click shows the whole clip; the
+right button asks what to do. What the signs mean stands in `sheet_painter.py`, and in the legend for people.
 """
 
 from __future__ import annotations
 
-import numpy as np
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
+import math
+
+from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
     QColor,
+    QContextMenuEvent,
     QFocusEvent,
-    QImage,
+    QHelpEvent,
     QMouseEvent,
     QPainter,
     QPaintEvent,
     QPen,
     QPixmap,
-    QPolygonF,
     QResizeEvent,
     QWheelEvent,
 )
-from PySide6.QtWidgets import QAbstractScrollArea, QWidget
+from PySide6.QtWidgets import QAbstractScrollArea, QToolTip, QWidget
 
-from genmojo_core.tracks.annotation import CONFIRMED, KEY
-from genmojo_core.tracks.model import OCCLUDED
-from genmojo_studio.annotate.colours import heat_colour, point_colour
-from genmojo_studio.annotate.overlay import glyph_path
+from genmojo_core.tracks.annotation import Touched
 from genmojo_studio.annotate.session import Session
+from genmojo_studio.annotate.sheet_painter import LABEL, MARKED, ROW, RULER, SheetPainter
+from genmojo_studio.annotate.sheet_words import describe_cell, describe_row
+from genmojo_studio.annotate.time_view import Axis, TimeView
 from genmojo_studio.translate import tr
 
-RULER, ROW, LABEL = 30, 18, 168
+_DRAG = 4  # pixels that a press moves before it is more than a click
+_NOTCH = 120.0  # of a wheel, in eighths of a degree
 
 
 class DopeSheet(QAbstractScrollArea):
@@ -41,16 +42,17 @@ class DopeSheet(QAbstractScrollArea):
     seek = Signal(int)
     picked = Signal(int)
     painted = Signal(int, int, int)  # track, first and last frame
+    asked = Signal(int, int, QPoint)  # track, frame and place on the screen of a right click
 
-    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+    def __init__(self, session: Session, view: TimeView, parent: QWidget | None = None) -> None:
         self._still: QPixmap | None = None
         super().__init__(parent)
-        self._session = session
+        self._session, self.view = session, view
         self.by_suspicion = False
         self._rows: list[int] = []
-        self._strip: QImage | None = None
-        self._pixels: np.ndarray | None = None
-        self._press: tuple[int, int] | None = None  # row, frame
+        self._painter = SheetPainter(session)
+        self._press: tuple[int, int, QPointF] | None = None  # row, frame, place of a press that may paint
+        self._pan: tuple[QPointF, float, int] | None = None  # place, first frame and row when panning began
         self._at = 0
         self._ruler = False
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -58,12 +60,14 @@ class DopeSheet(QAbstractScrollArea):
         self.setMinimumHeight(RULER + 2 * ROW)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.verticalScrollBar().valueChanged.connect(self._dirty)
-        session.edited.connect(self._dirty)
-        session.selected.connect(self._dirty)
+        view.changed.connect(self._dirty)
+        session.edited.connect(self._edited)
+        session.selected.connect(self._chosen)
+        session.settings_changed.connect(self.viewport().update)
         session.frame_changed.connect(self.viewport().update)
         session.cache.filled.connect(self._ring_changed)
         self.viewport().setMouseTracking(True)
-        self._dirty()
+        self.refresh()
 
     def sizeHint(self) -> QSize:
         """Room for a dozen rows."""
@@ -76,33 +80,33 @@ class DopeSheet(QAbstractScrollArea):
     def sort_by_suspicion(self, on: bool) -> None:
         """Worst tracks first, or by object and point."""
         self.by_suspicion = on
-        self._dirty()
+        self.refresh()
 
     def refresh(self, _what: object = None) -> None:
         """Suspicion has changed."""
+        self._painter.forget()
+        self._rows = self._order()
         self._dirty()
 
     # ---- geometry
 
+    def axis(self) -> Axis:
+        """Where the frames on show are."""
+        return Axis(self.view.first, self.view.span, LABEL, max(self.viewport().width() - LABEL - 6, 1))
+
     def frame_at(self, x: float) -> int:
-        """Frame under a viewport x."""
-        share = (x - LABEL) / max(self._width(), 1)
-        return int(np.clip(share * self._frames(), 0, self._frames() - 1))
+        """Frame under a viewport x, the nearest on show where none is there."""
+        first, end = self.view.cells()
+        return min(max(int(self.axis().frame_at(x) // 1), first), end - 1)
 
     def x_of(self, frame: float) -> float:
         """Viewport x of a frame's left edge."""
-        return LABEL + frame * self._width() / self._frames()
+        return self.axis().x_of(frame)
 
     def row_at(self, y: float) -> int | None:
         """Place in `rows` under a viewport y, None on the ruler or below all rows."""
         row = int((y - RULER) // ROW) + self.verticalScrollBar().value()
         return row if y >= RULER and row < len(self._rows) else None
-
-    def _width(self) -> float:
-        return self.viewport().width() - LABEL - 6
-
-    def _frames(self) -> int:
-        return max(self._session.annotation.frames, 1)
 
     # ---- painting
 
@@ -110,92 +114,45 @@ class DopeSheet(QAbstractScrollArea):
         """Ruler, pattern, keys, selection and playhead."""
         if self._still is None:
             self._still = self._make_still()
-        painter = QPainter(self.viewport())
+        painter, axis = QPainter(self.viewport()), self.axis()
         painter.drawPixmap(0, 0, self._still)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, on=True)
-        self._paint_ring(painter)
-        self._paint_brush(painter, self.verticalScrollBar().value())
-        x = self.x_of(self._session.frame + 0.5)
-        painter.setPen(QPen(self.palette().highlight().color(), 2))
-        painter.drawLine(QPointF(x, 12), QPointF(x, self.viewport().height()))
+        self._painter.over(painter, axis)
+        self._paint_brush(painter, axis)
+        x = axis.x_of(self._session.frame + 0.5)
+        if axis.left <= x <= axis.left + axis.width:
+            painter.setPen(QPen(self.palette().highlight().color(), 2))
+            painter.drawLine(QPointF(x, 12), QPointF(x, self.viewport().height()))
         if not self._rows:
             painter.setPen(self.palette().placeholderText().color())
-            area = QRectF(LABEL, RULER, self._width(), ROW * 3)
+            area = QRectF(LABEL, RULER, axis.width, ROW * 3)
             painter.drawText(area, Qt.AlignmentFlag.AlignCenter, tr("No points yet: place them in step 2."))
         if self.hasFocus():
             painter.setPen(QPen(self.palette().highlight().color(), 2))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawRect(QRectF(self.viewport().rect()).adjusted(1, 1, -1, -1))
         painter.end()
 
     def _make_still(self) -> QPixmap:
         """All that stays while only the frame changes."""
-        ratio = self.devicePixelRatioF()
+        ratio, axis = self.devicePixelRatioF(), self.axis()
         still = QPixmap(self.viewport().size() * ratio)
         still.setDevicePixelRatio(ratio)
         still.fill(self.palette().base().color())
         painter = QPainter(still)
         painter.setFont(self.font())
-        self._make_strip()
-        if self._strip is not None:
-            painter.drawImage(QPointF(LABEL, RULER), self._strip)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, on=True)
+        painter.setClipRect(QRectF(LABEL, RULER, axis.width, self.viewport().height()))
         for n, track in enumerate(self._shown()):
-            self._paint_row(painter, n, track, selected=track == self._session.track)
-        self._paint_ruler(painter)
+            self._painter.row(painter, track, RULER + n * ROW, axis, self.palette())
+        painter.setClipping(False)
+        for n, track in enumerate(self._shown()):
+            self._painter.label(painter, track, RULER + n * ROW, self.palette())
+        self._painter.ruler(painter, axis, self.palette())
         painter.end()
         return still
 
-    def _paint_row(self, painter: QPainter, n: int, track: int, *, selected: bool) -> None:
-        session, y = self._session, RULER + n * ROW
-        info = session.annotation.tracks[track]
-        place = session.place_of(info.object)
-        if selected:
-            tint = self.palette().highlight().color()
-            tint.setAlpha(90)
-            painter.fillRect(QRectF(0, y, LABEL - 4, ROW), tint)
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(QColor(*point_colour(place, info.number - 1)))
-        painter.drawPath(glyph_path(info.number - 1, 5).translated(12, y + ROW / 2))
-        owner = session.annotation.objects.get(info.object)
-        painter.setPen(self.palette().text().color())
-        text = f"{owner.name if owner else info.object} · {info.number} {info.name}"
-        mark = {"approved": " ✓", "needs_fix": " ✗", "fixed": " ↻"}.get(info.review, "")
-        area = QRectF(24, y, LABEL - 30, ROW)
-        clipped = painter.fontMetrics().elidedText(text, Qt.TextElideMode.ElideMiddle, int(area.width()) - 16)
-        painter.drawText(area, Qt.AlignmentFlag.AlignVCenter, clipped + mark)
-        wide = self._width() / self._frames()
-        size = min(5.0, max(2.5, wide / 2))
-        painter.setPen(QPen(QColor(20, 22, 26), 1))
-        painter.setBrush(QColor(255, 255, 255))
-        for key in session.annotation.keys(track).tolist():
-            x, middle = self.x_of(key + 0.5), y + ROW / 2
-            painter.drawPolygon(QPolygonF([QPointF(x, middle - size), QPointF(x + size, middle),
-                                           QPointF(x, middle + size), QPointF(x - size, middle)]))  # fmt: skip
-
-    def _paint_ruler(self, painter: QPainter) -> None:
-        """Frame numbers and ticks of the stride."""
-        painter.fillRect(QRectF(0, 0, self.viewport().width(), RULER), self.palette().window())
-        step = _nice(56 * self._frames() / max(self._width(), 1))
-        painter.setPen(self.palette().placeholderText().color())
-        for frame in range(0, self._frames(), step):
-            painter.drawText(QPointF(self.x_of(frame) + 2, 11), str(frame))
-        stride = self._session.stride
-        if self._width() * stride / self._frames() >= 3:
-            for frame in range(0, self._frames(), stride):
-                x = self.x_of(frame + 0.5)
-                painter.drawLine(QPointF(x, 15), QPointF(x, 20))
-
-    def _paint_ring(self, painter: QPainter) -> None:
-        """Frames that are decoded, and the run marked by [ and ]."""
-        for first, end in _runs(self._session.cache.held()):
-            painter.fillRect(QRectF(self.x_of(first), 23, self.x_of(end) - self.x_of(first), 3), QColor(90, 170, 110))
-        run = self._session.run
-        if run != (None, None):
-            ends = [self._session.frame if end is None else end for end in run]
-            x0, x1 = self.x_of(min(ends)), self.x_of(max(ends) + 1)
-            painter.fillRect(QRectF(x0, 14, x1 - x0, 6), QColor(214, 142, 52, 150))
-
-    def _paint_brush(self, painter: QPainter, first: int) -> None:
+    def _paint_brush(self, painter: QPainter, axis: Axis) -> None:
         """What is being painted now, here by dragging or by a key held down."""
         painting = self._session.painting
         if self._press is not None and self._at != self._press[1]:
@@ -204,69 +161,106 @@ class DopeSheet(QAbstractScrollArea):
             row, run = self._rows.index(painting.track), list(painting.run())
         else:
             return
-        area = QRectF(self.x_of(run[0]), RULER + (row - first) * ROW, self.x_of(run[1] + 1) - self.x_of(run[0]), ROW)
-        painter.fillRect(area, QColor(214, 142, 52, 130))
-
-    def _make_strip(self) -> None:
-        """The pattern of all rows on show, at the screen's own resolution."""
-        ratio = self.devicePixelRatioF()
-        rows, width = self._shown(), round(self._width() * ratio)
-        height = round(len(rows) * ROW * ratio)
-        if not rows or width < 1:
-            self._strip = None
-            return
-        annotation, frames = self._session.annotation, self._frames()
-        column = np.minimum(np.arange(width) * frames // width, frames - 1)
-        pixels = np.zeros((height, width, 4), np.uint8)
-        row_pixels = round(ROW * ratio)
-        for n, track in enumerate(rows):
-            info = annotation.tracks[track]
-            doubt = self._session.suspicion.get(track, np.zeros(frames))
-            cells = annotation.track(track)
-            colour = point_colour(self._session.place_of(info.object), info.number - 1)
-            part = pixels[n * row_pixels : (n + 1) * row_pixels]
-            sure = np.where(cells.flags & (KEY | CONFIRMED), 1.0, cells.conf)
-            part[:] = _pattern((row_pixels, width), cells.state[column], colour, (doubt[column], sure[column]), ratio)
-        self._pixels = pixels
-        self._strip = QImage(pixels.data, width, height, 4 * width, QImage.Format.Format_ARGB32)
-        self._strip.setDevicePixelRatio(ratio)
+        y = RULER + (row - self.verticalScrollBar().value()) * ROW
+        x0, x1 = (min(max(axis.x_of(f), LABEL), LABEL + axis.width) for f in (run[0], run[1] + 1))
+        tint = QColor(MARKED)
+        tint.setAlpha(130)
+        painter.fillRect(QRectF(x0, y, x1 - x0, ROW), tint)
 
     # ---- mouse
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Begin to scrub on the ruler, else take the cell."""
-        frame, row = self.frame_at(event.position().x()), self.row_at(event.position().y())
-        self._ruler = event.position().y() < RULER
+        """Left: begin to scrub on the ruler, else take the cell. Middle, or Shift and left: pan."""
+        place, left = event.position(), event.button() == Qt.MouseButton.LeftButton
+        if event.button() == Qt.MouseButton.MiddleButton or (left and event.modifiers() & _SHIFT):
+            self._pan = (place, self.view.first, self.verticalScrollBar().value())
+            self.viewport().setCursor(Qt.CursorShape.ClosedHandCursor)
+            return
+        if not left:
+            self._press = None  # any other button gives up what is being painted
+            self.viewport().update()
+            return
+        frame, row = self.frame_at(place.x()), self.row_at(place.y())
+        self._ruler = place.y() < RULER and place.x() >= LABEL
         self.began.emit()
         if row is not None:
             self.picked.emit(self._rows[row])
-            if event.position().x() >= LABEL:
-                self._press, self._at = (row, frame), frame
-        if self._ruler or (row is not None and event.position().x() >= LABEL):
+            if place.x() >= LABEL:
+                self._press, self._at = (row, frame, place), frame
+        if self._ruler or (row is not None and place.x() >= LABEL):
             self.seek.emit(frame)
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        """Scrub or paint; otherwise say what is under the mouse."""
-        frame = self.frame_at(event.position().x())
-        if event.buttons() & Qt.MouseButton.LeftButton and self._ruler:
+        """Scrub, paint or pan while a button is down, else say what is there."""
+        place = event.position()
+        frame = self.frame_at(place.x())
+        if self._pan is not None:
+            self._panned(place)
+            return
+        beyond = place.x() - min(max(place.x(), LABEL), self.x_of(self.view.end))
+        if beyond and (self._ruler or self._press is not None):  # a drag past the edge takes the view along
+            self.view.scroll(math.copysign(self.view.span / 40, beyond))
+        if self._ruler:
             self.seek.emit(frame)
         elif self._press is not None:
-            self._at = frame
+            far = (place - self._press[2]).manhattanLength() >= _DRAG
+            self._at = frame if far or self._at != self._press[1] else self._at
             self.viewport().update()
-        else:
-            self._describe(self.row_at(event.position().y()), frame)
+        elif QToolTip.isVisible():
+            self._tell(event.globalPosition().toPoint(), place)
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """A drag paints."""
+        if self._pan is not None:
+            self._pan = None
+            self.viewport().unsetCursor()
+            return
+        if event.button() != Qt.MouseButton.LeftButton:
+            return
         press, self._press, self._ruler = self._press, None, False
         if press is not None and self._at != press[1]:
             self.painted.emit(self._rows[press[0]], *sorted((press[1], self._at)))
         self.viewport().update()
 
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """The whole clip again."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self._press = None
+            self.view.fit()
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        """What can be done there, or with the active point's row where the keyboard asks."""
+        place = event.pos()
+        if event.reason() == QContextMenuEvent.Reason.Keyboard and self._session.track in self._rows:
+            row = self._rows.index(self._session.track)
+            place = QPoint(round(self.x_of(self._session.frame + 0.5)),
+                           RULER + ROW * (row - self.verticalScrollBar().value()) + ROW // 2)  # fmt: skip
+        found = self.row_at(place.y())
+        if found is not None:
+            frame = self.frame_at(place.x()) if place.x() >= LABEL else self._session.frame
+            self.asked.emit(self._rows[found], frame, self.viewport().mapToGlobal(place))
+        event.accept()
+
     def wheelEvent(self, event: QWheelEvent) -> None:
-        """Rows up and down."""
-        bar = self.verticalScrollBar()
-        bar.setValue(bar.value() - int(np.sign(event.angleDelta().y())) * 2)
+        """Rows up and down; with Ctrl closer in time about the mouse, with Shift (or sideways) on in time."""
+        up, side = event.angleDelta().y() / _NOTCH, event.angleDelta().x() / _NOTCH
+        if event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+            axis = self.axis()
+            x = min(max(event.position().x(), axis.left), axis.left + axis.width)
+            self.view.zoom(up or side, axis.frame_at(x))
+        elif event.modifiers() & _SHIFT or abs(side) > abs(up):
+            self.view.scroll(-(up or side) * self.view.span / 8)
+        else:
+            bar = self.verticalScrollBar()
+            bar.setValue(bar.value() - int(math.copysign(math.ceil(abs(2 * up)), up)))
+        event.accept()
+
+    def viewportEvent(self, event: QEvent) -> bool:
+        """Tool tips of the cells."""
+        if event.type() == QEvent.Type.ToolTip and isinstance(event, QHelpEvent):
+            self._tell(event.globalPos(), QPointF(event.pos()))
+            return True
+        return super().viewportEvent(event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Another width, another pattern."""
@@ -274,18 +268,37 @@ class DopeSheet(QAbstractScrollArea):
 
     # ---- helpers
 
-    def _describe(self, row: int | None, frame: int) -> None:
+    def words_at(self, place: QPointF) -> str:
+        """What stands at a place of the viewport, in words."""
+        row = self.row_at(place.y())
         if row is None:
-            self.viewport().setToolTip("")
+            return ""
+        track = self._rows[row]
+        if place.x() < LABEL:
+            return describe_row(self._session, track)
+        return describe_cell(self._session, track, self.frame_at(place.x()))
+
+    def _tell(self, on_screen: QPoint, place: QPointF) -> None:
+        words = self.words_at(place)
+        if words:
+            QToolTip.showText(on_screen, words, self.viewport())
+        else:
+            QToolTip.hideText()
+
+    def _panned(self, place: QPointF) -> None:
+        if self._pan is None:
             return
-        cells = self._session.annotation.track(self._rows[row])
-        names = {0: tr("not annotated"), 1: tr("visible"), 2: tr("occluded"), 3: tr("out of view")}
-        text = f"{tr('frame')} {frame}: {names[int(cells.state[frame])]}"
-        self.viewport().setToolTip(text + (", " + tr("key") if cells.flags[frame] & KEY else ""))
+        began, first, row = self._pan
+        self.view.scroll(first - (place.x() - began.x()) / self.axis().wide - self.view.first)
+        self.verticalScrollBar().setValue(row - round((place.y() - began.y()) / ROW))
+
+    def _visible(self) -> int:
+        """Rows that are wholly on show."""
+        return max(1, (self.viewport().height() - RULER) // ROW)
 
     def _shown(self) -> list[int]:
         first = self.verticalScrollBar().value()
-        return self._rows[first : first + max(1, (self.viewport().height() - RULER) // ROW + 1)]
+        return self._rows[first : first + self._visible() + 1]
 
     def _order(self) -> list[int]:
         session = self._session
@@ -296,10 +309,28 @@ class DopeSheet(QAbstractScrollArea):
         infos = session.annotation.active()
         return [i.id for i in sorted(infos, key=lambda i: (places.get(i.object, 99), i.object, i.number))]
 
+    def _edited(self, touched: Touched) -> None:
+        self._painter.forget(touched.tracks)
+        if touched.objects or touched.tracks:
+            self._rows = self._order()
+        if touched.objects:  # their order gives the colours
+            self._painter.forget()
+        self._dirty()
+
+    def _chosen(self) -> None:
+        """The active point's row comes into view."""
+        track, bar = self._session.track, self.verticalScrollBar()
+        if track in self._rows:
+            row = self._rows.index(track)
+            if row < bar.value():
+                bar.setValue(row)
+            elif row > bar.value() + self._visible():
+                bar.setValue(row - self._visible() + 1)
+        self._dirty()
+
     def _dirty(self, _what: object = None) -> None:
-        self._rows = self._order()
-        visible = max(1, (self.viewport().height() - RULER) // ROW)
-        self.verticalScrollBar().setRange(0, max(0, len(self._rows) - visible))
+        self.verticalScrollBar().setPageStep(self._visible())
+        self.verticalScrollBar().setRange(0, max(0, len(self._rows) - self._visible()))
         self._still = None
         self.viewport().update()
 
@@ -322,55 +353,4 @@ class DopeSheet(QAbstractScrollArea):
         self.viewport().update(0, 20, self.viewport().width(), 8)
 
 
-def _pattern(
-    shape: tuple[int, int],
-    state: np.ndarray,
-    colour: tuple[int, int, int],
-    trust: tuple[np.ndarray, np.ndarray],
-    ratio: float,
-) -> np.ndarray:  # (h, w, 4) uint8 BGRA
-    """Fill, hatch, dots or nothing for every column; a red rim where it is suspicious, paler where less sure.
-
-    `trust`: suspicion and confidence of every column, 0..1.
-    """
-    height, width = shape
-    doubt, sure = trust
-    y, x = np.ogrid[:height, :width]
-    top, bottom = round(2 * ratio), height - round(2 * ratio)
-    unit = max(1, round(ratio))
-    inside = (y >= top) & (y < bottom)
-    hatch = ((x + y) // (2 * unit)) % 3 == 0
-    dots = ((x // unit) % 6 < 2) & ((y - height // 2) // unit == 0)
-    on = inside & ((state == 1) | ((state == OCCLUDED) & hatch) | ((state == 3) & dots))
-    out = np.zeros((height, width, 4), np.uint8)
-    bgr = np.array(colour[::-1], np.uint8)
-    out[on, :3] = bgr
-    out[..., 3] = np.where(on, (110 + 105 * np.clip(sure, 0, 1)).astype(np.uint8), 0)
-    faint = inside & ~on & (state == OCCLUDED)
-    out[faint, :3] = bgr
-    out[faint, 3] = 45
-    hot = inside & (doubt >= 0.3) & (y >= bottom - 4 * unit)
-    if hot.any():
-        heat = np.array([(*heat_colour(d)[::-1], 255) for d in np.linspace(0, 1, 33)], np.uint8)
-        out[hot] = np.broadcast_to(heat[(doubt * 32).astype(int)], out.shape)[hot]
-    return out
-
-
-def _runs(frames: list[int]) -> list[tuple[int, int]]:
-    """Runs of consecutive frames as (first, end)."""
-    if not frames:
-        return []
-    values = np.array(frames)
-    cuts = np.flatnonzero(np.diff(values) > 1)
-    firsts, lasts = np.r_[values[0], values[cuts + 1]], np.r_[values[cuts], values[-1]]
-    return [(int(a), int(b) + 1) for a, b in zip(firsts, lasts, strict=True)]
-
-
-def _nice(least: float) -> int:
-    """The next of 1, 2, 5, 10, 20, ... not below `least`."""
-    step = 1
-    while True:
-        for factor in (1, 2, 5):
-            if step * factor >= least:
-                return step * factor
-        step *= 10
+_SHIFT = Qt.KeyboardModifier.ShiftModifier

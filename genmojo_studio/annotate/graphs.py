@@ -1,6 +1,7 @@
 """Curves of the active track over time: position, speed, confidence, suspicion.
 
-A click goes to that frame, a double click shows the whole curve again after zooming.
+A click goes to that frame, a double click shows the whole curve again after zooming. The frames on show are those of
+the dope sheet (`TimeView`).
 In the curves of x and y the keys are knots: dragging one up or down moves the key.
 """
 
@@ -16,6 +17,7 @@ from genmojo_core.tracks.annotation import KEY
 from genmojo_core.tracks.model import NONE
 from genmojo_studio.annotate.colours import point_colour
 from genmojo_studio.annotate.session import Session
+from genmojo_studio.annotate.time_view import TimeView
 from genmojo_studio.translate import tr
 
 
@@ -47,7 +49,8 @@ class Knots(pg.ScatterPlotItem):
             event.ignore()
             return
         event.accept()
-        self.getViewBox().enableAutoRange(enable=event.isFinish())  # a scale that moved along would run away
+        box = self.getViewBox()
+        box.enableAutoRange(axis=box.YAxis, enable=event.isFinish())  # a scale that moved along would run away
         values = self._values.copy()
         values[self._held] = event.pos().y()
         self.setData(self._frames, values)
@@ -62,9 +65,10 @@ class Graphs(QWidget):
     seek = Signal(int)
     moved = Signal(int, int, float, float)  # track, frame, raster x and y: a knot was dragged there
 
-    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+    def __init__(self, session: Session, view: TimeView, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._session = session
+        self._session, self._view = session, view
+        self._zoomed = self._placing = False  # whether the frames on show were chosen here; are being put on show now
         self.measures: dict[int, dict[str, np.ndarray]] = {}  # track -> name -> (T,), e.g. forward-backward error
         self.choice = QComboBox()
         self.choice.addItems([tr("x"), tr("y"), tr("speed (px per frame)"), tr("acceleration"), tr("confidence"),
@@ -82,6 +86,10 @@ class Graphs(QWidget):
         self._now = pg.InfiniteLine(angle=90, pen=pg.mkPen(70, 140, 220, width=2))
         self.plot.addItem(self._now)
         self.plot.scene().sigMouseClicked.connect(self._clicked)
+        self.plot.getViewBox().setAutoVisible(y=True)  # the scale of y belongs to the frames on show
+        self.plot.setXRange(view.first - 0.5, view.end - 0.5, padding=0)  # from now on never by itself
+        self.plot.getViewBox().sigXRangeChanged.connect(self._scrolled)
+        view.changed.connect(self._follow)
         row = QHBoxLayout(self)
         row.setContentsMargins(4, 4, 4, 4)
         left = QVBoxLayout()
@@ -114,7 +122,7 @@ class Graphs(QWidget):
         drawn = (session.active, self.choice.currentIndex())
         if drawn != self._drawn:  # a range that was zoomed belongs to the curve before
             self._drawn = drawn
-            self.plot.getViewBox().enableAutoRange()
+            self._fit(time=self._zoomed)
         place = session.place_of(session.active[0])
         for info in session.annotation.tracks_of(session.active[0]):
             values = self._values(info.id)
@@ -126,6 +134,7 @@ class Graphs(QWidget):
                 self.knots = self._knots(info.id, values)
                 self.plot.addItem(self.knots)
                 self._lines.append(self.knots)
+        self._follow()
         self._move(session.frame)
 
     def _knots(self, track: int, values: np.ndarray) -> Knots:
@@ -166,10 +175,32 @@ class Graphs(QWidget):
         if self.isVisible():
             self._now.setValue(frame)
 
+    def _fit(self, *, time: bool) -> None:
+        """The whole height of the curve, and with `time` the whole clip."""
+        box = self.plot.getViewBox()
+        box.enableAutoRange(axis=box.YAxis)
+        if time:
+            self._view.fit()
+            self._follow()
+
+    def _follow(self) -> None:
+        """Show the frames that the dope sheet shows; values stand in the middle of its cells."""
+        if self.isVisible() and not self._placing:
+            self._placing, self._zoomed = True, False
+            self.plot.setXRange(self._view.first - 0.5, self._view.end - 0.5, padding=0)
+            self._placing = False
+
+    def _scrolled(self, _box: object, frames: tuple[float, float]) -> None:
+        """The frames on show were chosen with the mouse in the graph: the dope sheet follows."""
+        if not self._placing:
+            self._placing = self._zoomed = True
+            self._view.show(frames[0] + 0.5, frames[1] + 0.5)
+            self._placing = False
+
     def _clicked(self, event: object) -> None:
         """A click goes to the frame; a second one right after it shows the whole curve again."""
         if event.double():  # type: ignore[attr-defined]
-            self.plot.getViewBox().enableAutoRange()
+            self._fit(time=True)
             return
         place = self.plot.getPlotItem().vb.mapSceneToView(event.scenePos())  # type: ignore[attr-defined]
         if event.button() == Qt.MouseButton.LeftButton:  # type: ignore[attr-defined]

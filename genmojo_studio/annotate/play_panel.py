@@ -1,4 +1,7 @@
-"""The video play panel: one row with transport, frame and time, speed; below it the dope sheet or the graphs."""
+"""The video play panel: one row with transport, frame and time, speed; below it the dope sheet or the graphs.
+
+All of them, and the timeline below, show the same frames (`TimeView`).
+"""
 
 from __future__ import annotations
 
@@ -22,6 +25,8 @@ from genmojo_studio.actions import ActionTable
 from genmojo_studio.annotate.dope_sheet import DopeSheet
 from genmojo_studio.annotate.graphs import Graphs
 from genmojo_studio.annotate.session import Session
+from genmojo_studio.annotate.time_view import TimeView
+from genmojo_studio.annotate.timeline import Timeline
 from genmojo_studio.icons import icon
 from genmojo_studio.translate import tr
 
@@ -91,13 +96,15 @@ class Player(QObject):
 
 
 class PlayPanel(QWidget):
-    """Transport above, dope sheet and graphs below."""
+    """Transport above, dope sheet or graphs, and the timeline of the clip."""
 
     def __init__(self, session: Session, actions: ActionTable, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session, self._actions = session, actions
         self.player = Player(session, self)
-        self.sheet, self.graphs = DopeSheet(session), Graphs(session)
+        self.view = TimeView(session, self)
+        self.sheet, self.graphs = DopeSheet(session, self.view), Graphs(session, self.view)
+        self.timeline = Timeline(session, self.view)
         self.brush = QComboBox()
         self.tabs, self.stack = QTabBar(), QStackedWidget()
         for title, widget in ((tr("Dope sheet"), self.sheet), (tr("Graphs"), self.graphs)):
@@ -113,6 +120,7 @@ class PlayPanel(QWidget):
         column.setSpacing(2)
         column.addLayout(self._transport())
         column.addWidget(self.stack, 1)
+        column.addWidget(self.timeline)
         session.frame_changed.connect(self._show_frame)
         self.player.toggled.connect(self._show_playing)
         self.destroyed.connect(session.state.subscribe(self._dress, "theme"))

@@ -16,6 +16,7 @@ from genmojo_core.store.project import Project, Step
 from genmojo_core.store.project_file import ClipInfo
 from genmojo_core.tracks.annotation import Annotation, ObjectInfo, Touched
 from genmojo_core.tracks.edits import Edit
+from genmojo_core.tracks.suspicion import Suspicion
 from genmojo_studio.annotate.frame_cache import FrameCache
 from genmojo_studio.settings import data_folder
 from genmojo_studio.state import AppState
@@ -73,6 +74,7 @@ class Session(QObject):
         self.painting: Painting | None = None
         self.other: Other | None = None
         self.suspicion: dict[int, np.ndarray] = {}  # track -> (T,) 0..1
+        self.suspicions: dict[int, Suspicion] = {}  # track -> what it comes from
         self.snap = False
         self.first_frames: dict[int, int] = {}  # object id -> frame in which it is first seen, as far as that is known
         self.placed: tuple[int, int] | None = None  # the point placed just now, while the next one is active

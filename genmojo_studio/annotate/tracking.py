@@ -365,6 +365,7 @@ class Tracking(QObject):
         self.evidence |= evidence
         known = {t: e for t, e in self.evidence.items() if t in session.annotation.tracks}
         self.suspicions = suspicion.assess(session.annotation, scene_of(session.clip), known, self.learnt.calibration)
+        session.suspicions = self.suspicions
         session.suspicion = {t: s.score for t, s in self.suspicions.items()}
         self.measured.emit({t: {"fb": e.gap, "ncc": e.likeness} for t, e in known.items()})
         spots = suspicion.queue(session.annotation, self.suspicions)

@@ -116,32 +116,8 @@
       <translation>Zeitübersicht: Zustände aller Punkte</translation>
     </message>
     <message>
-      <source>not annotated</source>
-      <translation>nicht annotiert</translation>
-    </message>
-    <message>
-      <source>visible</source>
-      <translation>sichtbar</translation>
-    </message>
-    <message>
-      <source>occluded</source>
-      <translation>verdeckt</translation>
-    </message>
-    <message>
-      <source>out of view</source>
-      <translation>außerhalb</translation>
-    </message>
-    <message>
       <source>No points yet: place them in step 2.</source>
       <translation>Noch keine Punkte: setzen Sie sie in Schritt 2.</translation>
-    </message>
-    <message>
-      <source>frame</source>
-      <translation>Bild</translation>
-    </message>
-    <message>
-      <source>key</source>
-      <translation>Schlüssel</translation>
     </message>
     <message>
       <source>No more keys that way.</source>
@@ -170,6 +146,10 @@
     <message>
       <source>Curve over frames</source>
       <translation>Kurve über die Bilder</translation>
+    </message>
+    <message>
+      <source>frame</source>
+      <translation>Bild</translation>
     </message>
     <message>
       <source>x</source>
@@ -346,6 +326,18 @@
     <message>
       <source>accepted by a person</source>
       <translation>von einem Menschen bestätigt</translation>
+    </message>
+    <message>
+      <source>visible</source>
+      <translation>sichtbar</translation>
+    </message>
+    <message>
+      <source>occluded</source>
+      <translation>verdeckt</translation>
+    </message>
+    <message>
+      <source>out of view</source>
+      <translation>außerhalb</translation>
     </message>
     <message>
       <source>uncertain</source>
@@ -1048,6 +1040,10 @@
       <translation>warum</translation>
     </message>
     <message>
+      <source>key</source>
+      <translation>Schlüssel</translation>
+    </message>
+    <message>
       <source>accepted</source>
       <translation>angenommen</translation>
     </message>
@@ -1448,6 +1444,22 @@
       <translation>Nichts mehr zurückzunehmen oder zu wiederholen.</translation>
     </message>
     <message>
+      <source>not annotated</source>
+      <translation>nicht annotiert</translation>
+    </message>
+    <message>
+      <source>between the keys {a} and {b}, filled by: {mode}</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>{n} keys; review: {state}</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>suspicious ({n} of 9)</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>Accept, go on</source>
       <translation>Bestätigen</translation>
     </message>
@@ -1814,6 +1826,22 @@
     <message>
       <source>{n} visible points beside the picture lie at its border</source>
       <translation>{n} sichtbare Punkte neben dem Bild liegen auf seinem Rand</translation>
+    </message>
+    <message>
+      <source>Timeline of the whole clip</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>The frames that the dope sheet and the graphs show.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Drag the bar to scroll, its ends to zoom; a double click shows the whole clip.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>frames {a} to {b} of {n}</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>End the tour</source>
@@ -4332,6 +4360,30 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Zoom out</source>
       <translation>Verkleinern</translation>
+    </message>
+    <message>
+      <source>Zoom in on time</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Fewer frames in dope sheet and graphs; there Ctrl+wheel does it too.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Zoom out of time</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>More frames in dope sheet and graphs.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Whole clip in the dope sheet</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>All frames; a double click there does it too.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>View follows the point</source>
