@@ -757,7 +757,7 @@
     </message>
     <message>
       <source>What a drag over the dope sheet paints</source>
-      <translation>Was ein Zug über das Ablaufblatt malt</translation>
+      <translation>Was ein Zug über die Zeitübersicht malt</translation>
     </message>
     <message>
       <source>worst first</source>
@@ -1833,7 +1833,7 @@
     </message>
     <message>
       <source>The frames that the dope sheet and the graphs show.</source>
-      <translation type="unfinished" />
+      <translation>Die Bilder, die Zeitübersicht und Kurven zeigen.</translation>
     </message>
     <message>
       <source>Drag the bar to scroll, its ends to zoom; a double click shows the whole clip.</source>
@@ -4367,7 +4367,7 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     </message>
     <message>
       <source>Fewer frames in dope sheet and graphs; there Ctrl+wheel does it too.</source>
-      <translation type="unfinished" />
+      <translation>Weniger Bilder in Zeitübersicht und Kurven; dort tut es auch Strg+Rad.</translation>
     </message>
     <message>
       <source>Zoom out of time</source>
@@ -4375,11 +4375,11 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     </message>
     <message>
       <source>More frames in dope sheet and graphs.</source>
-      <translation type="unfinished" />
+      <translation>Mehr Bilder in Zeitübersicht und Kurven.</translation>
     </message>
     <message>
       <source>Whole clip in the dope sheet</source>
-      <translation type="unfinished" />
+      <translation>Ganzer Clip in der Zeitübersicht</translation>
     </message>
     <message>
       <source>All frames; a double click there does it too.</source>
