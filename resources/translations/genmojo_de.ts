@@ -1449,15 +1449,15 @@
     </message>
     <message>
       <source>between the keys {a} and {b}, filled by: {mode}</source>
-      <translation type="unfinished" />
+      <translation>zwischen den Schlüsseln {a} und {b}, gefüllt durch: {mode}</translation>
     </message>
     <message>
       <source>{n} keys; review: {state}</source>
-      <translation type="unfinished" />
+      <translation>{n} Schlüssel; Prüfung: {state}</translation>
     </message>
     <message>
       <source>suspicious ({n} of 9)</source>
-      <translation type="unfinished" />
+      <translation>verdächtig ({n} von 9)</translation>
     </message>
     <message>
       <source>Accept, go on</source>
@@ -1829,7 +1829,7 @@
     </message>
     <message>
       <source>Timeline of the whole clip</source>
-      <translation type="unfinished" />
+      <translation>Zeitleiste des ganzen Clips</translation>
     </message>
     <message>
       <source>The frames that the dope sheet and the graphs show.</source>
@@ -1837,11 +1837,11 @@
     </message>
     <message>
       <source>Drag the bar to scroll, its ends to zoom; a double click shows the whole clip.</source>
-      <translation type="unfinished" />
+      <translation>Balken ziehen verschiebt, seine Enden ziehen zoomt; ein Doppelklick zeigt den ganzen Clip.</translation>
     </message>
     <message>
       <source>frames {a} to {b} of {n}</source>
-      <translation type="unfinished" />
+      <translation>Bilder {a} bis {b} von {n}</translation>
     </message>
     <message>
       <source>End the tour</source>
@@ -4363,7 +4363,7 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     </message>
     <message>
       <source>Zoom in on time</source>
-      <translation type="unfinished" />
+      <translation>Zeit vergrößern</translation>
     </message>
     <message>
       <source>Fewer frames in dope sheet and graphs; there Ctrl+wheel does it too.</source>
@@ -4371,7 +4371,7 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     </message>
     <message>
       <source>Zoom out of time</source>
-      <translation type="unfinished" />
+      <translation>Zeit verkleinern</translation>
     </message>
     <message>
       <source>More frames in dope sheet and graphs.</source>
@@ -4383,7 +4383,7 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     </message>
     <message>
       <source>All frames; a double click there does it too.</source>
-      <translation type="unfinished" />
+      <translation>Alle Bilder; dort tut es auch ein Doppelklick.</translation>
     </message>
     <message>
       <source>View follows the point</source>
