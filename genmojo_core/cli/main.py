@@ -18,6 +18,7 @@ from genmojo_core.cli import (
     optimise,
     pictures,
     priors,
+    records,
     scores,
     selftest,
     track_files,
@@ -53,7 +54,20 @@ def _parser() -> Parser:
     parser = Parser(prog="genmojo", description="Multi-object video to 4D Gaussian scenes and point tracks.")
     parser.add_argument("--version", action="version", version=f"genmojo {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for group in (demo, optimise, pictures, scores, files, export, track_files, priors, ablate, tradeoff, selftest):
+    for group in (
+        demo,
+        optimise,
+        pictures,
+        scores,
+        files,
+        export,
+        track_files,
+        records,
+        priors,
+        ablate,
+        tradeoff,
+        selftest,
+    ):
         group.add_commands(commands)
     for command in commands.choices.values():
         command.add_argument("--json", action="store_true", help="one JSON object on stdout")

@@ -111,18 +111,38 @@ def _read(path: Path, read: Callable[[sqlite3.Connection], _Found]) -> _Found:
                                "open a backup copy") from error  # fmt: skip
 
 
-def verify(path: Path) -> list[str]:
-    """Faults of a project: rows whose hash does not continue the chain. Raises as `load`."""
-    faults = []
+@dataclass(frozen=True)
+class Chain:
+    """What checking the hashes of a project found: number of entries, those that do not continue the chain, and numbers
+    of entries that are missing."""
+
+    entries: int
+    broken: tuple[Row, ...]
+    missing: tuple[int, ...]
+
+
+def check_chain(path: Path) -> Chain:
+    """Whether every entry of the log is as it was made and follows the one before. Raises as `load`."""
+    broken: list[Row] = []
+    missing: list[int] = []
+    count = 0
     with closing(connect_to_read(path)) as connection:
         check_file(connection, path)
         previous = b""
         for *columns, payload, stored in connection.execute(f"SELECT {COLUMNS}, payload, hash FROM edits ORDER BY seq"):
             row = Row(*columns)
-            if row.hash(payload, previous) != stored:
-                faults.append(f"edit {row.seq} ({row.title}) was changed after it was made")
-            previous = stored
-    return faults
+            missing += range(count + 1, row.seq)
+            if row.hash(payload, previous) != stored and row.seq == count + 1:
+                broken.append(row)
+            previous, count = stored, row.seq
+    return Chain(count - len(missing), tuple(broken), tuple(missing))
+
+
+def verify(path: Path) -> list[str]:
+    """Faults of a project: rows whose hash does not continue the chain. Raises as `load`."""
+    chain = check_chain(path)
+    return [*(f"edit {number} is missing" for number in chain.missing),
+            *(f"edit {row.seq} ({row.title}) was changed after it was made" for row in chain.broken)]  # fmt: skip
 
 
 def edits(path: Path, rows: Sequence[Row]) -> dict[int, Edit]:

@@ -7,6 +7,7 @@ log in one.
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
@@ -123,6 +124,13 @@ class Log:
                 forth.append(target)
                 target = self._edits[target].parent
         return back, forth[::-1]
+
+    def standing(self) -> Iterator[Row]:
+        """Edits in effect, newest first."""
+        at = self.head
+        while at != ROOT:
+            yield self._edits[at]
+            at = self._edits[at].parent
 
     def on_path(self, seq: int) -> bool:
         """Whether an edit is in effect."""

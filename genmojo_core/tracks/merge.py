@@ -102,7 +102,10 @@ def merge(
               if isinstance(c, CellsChange | TrackChange)}  # fmt: skip
     cells = next((c for c in changes if isinstance(c, CellsChange) and len(c.frames)), None)
     where = (int(cells.frames[0]), cells.track) if cells is not None else (None, None)
-    return Edit("merge", say("merge", count=len(tracks)), tuple(changes), *where)
+    objects = sum(isinstance(c, ObjectChange) for c in changes)
+    title = say("merge_mixed", tracks=len(tracks), objects=objects) if tracks and objects else say(
+        "merge_objects", count=objects) if objects else say("merge", count=len(tracks))  # fmt: skip
+    return Edit("merge", title, tuple(changes), *where)
 
 
 def _runs(base: Annotation | None, mine: Annotation, theirs: Annotation) -> list[MergeRun]:

@@ -159,6 +159,8 @@ _REST = (
     _action("review.reject", "Reject the track", "Ctrl+Shift+X", "The track is given up; it stays in the project."),
     _action("review.merge", "Compare with a second annotator…", "", "Agreement, and a merge with preview."),
     _action("review.log", "Log and statistics…", "", "Who did what when; time per clip and person."),
+    _action("review.check_log", "Check the log", "", "Whether anything in it was changed afterwards."),
+    _action("review.export_log", "Export the log…", "", "CSV or JSON; names and times only with consent."),
     _action("file.new_clip", "Annotate a clip…", "", "Opens a clip with a project of its own.", separator=True),
     _action("file.import", "Import tracks…", "Ctrl+I", "TAP-Vid, CoTracker, SLEAP, DeepLabCut, CVAT, COCO, ours.",
             separator=True),

@@ -151,6 +151,8 @@ class Hands:
             "review.reject": w.review.reject,
             "review.merge": self.dialogs.merge,
             "review.log": self.dialogs.log,
+            "review.check_log": self.dialogs.check_log,
+            "review.export_log": self.dialogs.export_log,
         }
 
     def rest(self) -> dict[str, Verb]:

@@ -10,12 +10,12 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QFileDialog, QInputDialog, QMenu
 
 from genmojo_core.errors import GenmojoError
-from genmojo_core.store import project_file
+from genmojo_core.store import audit, project_file
 from genmojo_core.store.project_log import Row
 from genmojo_core.tracks import edit_tracks
 from genmojo_core.tracks.annotation import REASONS
 from genmojo_studio import notify
-from genmojo_studio.annotate import take_tracks, verbs
+from genmojo_studio.annotate import audit_panel, take_tracks, verbs
 from genmojo_studio.annotate.log_dialog import LogDialog
 from genmojo_studio.annotate.merge_dialog import MergeDialog
 from genmojo_studio.annotate.seed_dialog import SeedDialog
@@ -83,7 +83,7 @@ class Dialogs:
         if not rows:
             self._s.said.emit(tr("No moment has a name yet (Ctrl+S)."))
             return
-        titles = [f"{row.title}   {row.at[:16]}" for row in rows[::-1]]
+        titles = [f"{row.title}   {audit.local(row.at)}" for row in rows[::-1]]
         title, chosen = QInputDialog.getItem(self._w, tr("Named moments"), tr("Go back to"), titles, 0, False)
         if chosen:
             row = rows[::-1][titles.index(title)]
@@ -105,11 +105,22 @@ class Dialogs:
 
         self._try(compare)
 
-    def log(self) -> None:
+    def log(self) -> LogDialog:
         """Who did what, and how long it took."""
         dialog = LogDialog(self._s, self._w)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.open()
+        return dialog
+
+    def check_log(self) -> None:
+        """Whether the log is as it was written."""
+        dialog = self.log()
+        dialog.tabs.setCurrentWidget(dialog.audit)
+        dialog.audit.check()
+
+    def export_log(self) -> None:
+        """The log as a table or JSON."""
+        audit_panel.ask_export(self._s, self._w.work.tasks, self._w)
 
     def import_tracks(self) -> None:
         """Tracks of a file, into points where no person has spoken."""

@@ -21,14 +21,12 @@ from PySide6.QtWidgets import (
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store import time_sheet
-from genmojo_core.store.project_log import Row
 from genmojo_core.tracks.statistics import clip_figures
 from genmojo_studio import notify
+from genmojo_studio.annotate.audit_panel import AuditPanel
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.track_tree import review_name
-from genmojo_studio.translate import decimal, told, tr
-
-_MOST = 2000  # rows of the log that are shown; all are exported
+from genmojo_studio.translate import decimal, tr
 
 
 class LogDialog(QDialog):
@@ -38,7 +36,8 @@ class LogDialog(QDialog):
         super().__init__(parent)
         self._session = session
         self.setWindowTitle(tr("Log and statistics"))
-        self.resize(760, 560)
+        room = self.screen().availableSize()
+        self.resize(min(1240, room.width() - 60), min(640, room.height() - 80))
         rows = session.project.log.rows
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
@@ -47,9 +46,9 @@ class LogDialog(QDialog):
                   for d in time_sheet.time_sheet(rows)]  # fmt: skip
         titles = [tr("person"), tr("day"), tr("minutes"), tr("edits"), tr("keys"), tr("undone")]
         self.tabs.addTab(_table(titles, sheets), tr("Time sheet"))
-        shown = [[str(r.seq), _done(r), r.who, r.at.replace("T", " ")[:19], "" if r.frame is None else str(r.frame)]
-                 for r in rows[-_MOST:][::-1]]  # fmt: skip
-        self.tabs.addTab(_table(["#", tr("what"), tr("who"), tr("when"), tr("frame")], shown), tr("Audit log"))
+        self.audit = AuditPanel(session)
+        self.finished.connect(self.audit.close_tasks)
+        self.tabs.addTab(self.audit, tr("Audit log"))
         consent = session.annotation.meta.get("consent") == "yes"
         text = tr("Names and times may be exported: consent is given.") if consent else tr(
             "Names and times are not exported: no consent is given (step 4).")  # fmt: skip
@@ -83,14 +82,6 @@ class LogDialog(QDialog):
             work()
         except GenmojoError as error:
             notify.tell(error, self)
-
-
-def _done(row: Row) -> str:
-    """What a row of the log did, in the person's language."""
-    if row.verb == "checkpoint":
-        return tr("Named: {name}").format(name=row.title)
-    sentence = {"undo": tr("Undone: {title}"), "redo": tr("Done again: {title}")} if row.verb == "move" else {}
-    return sentence.get(row.kind, "{title}").format(title=told(row.title))
 
 
 def _figures(session: Session) -> list[list[str]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import islice
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
@@ -28,6 +29,8 @@ from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.track_tree import TrackTree, review_name
 from genmojo_studio.settings import Settings
 from genmojo_studio.translate import told, tr
+
+_SHOWN = 40  # edits of a track
 
 
 class ReviewPage(QWidget):
@@ -112,7 +115,7 @@ class ReviewPage(QWidget):
         return True
 
     def refresh(self, _touched: object = None) -> None:
-        """Counts, the run concerned, the track's history."""
+        """Counts, the run concerned, the track's history as far as it stands."""
         if not self.isVisible():
             return
         session = self._session
@@ -125,8 +128,8 @@ class ReviewPage(QWidget):
                                tr("frame {a}; [ and ] mark more").format(a=first))  # fmt: skip
         self.consent.setChecked(session.annotation.meta.get("consent") == "yes")
         self.history.clear()
-        rows = [r for r in session.project.history() if r.track is not None and r.track == session.track]
-        for row in rows[-40:][::-1]:
+        mine = (row for row in session.project.log.standing() if row.track is not None and row.track == session.track)
+        for row in islice(mine, _SHOWN):
             self.history.addItem(f"{told(row.title)}   {row.who}")
 
     def _next_open(self) -> None:

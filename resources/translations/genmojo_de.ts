@@ -24,6 +24,154 @@
       <translation>Wird gelöst; das Bild wird gleich danach angenommen.</translation>
     </message>
     <message>
+      <source>Export the log</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>when (local time)</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>who</source>
+      <translation>wer</translation>
+    </message>
+    <message>
+      <source>what</source>
+      <translation>was</translation>
+    </message>
+    <message>
+      <source>in effect</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>point</source>
+      <translation>Punkt</translation>
+    </message>
+    <message>
+      <source>frames</source>
+      <translation>Bilder</translation>
+    </message>
+    <message>
+      <source>before</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>after</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>version</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Lines of which point</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Lines of which person</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Only what stands</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Leaves out edits that were undone, undoing itself and named moments.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Audit log</source>
+      <translation>Protokoll der Änderungen</translation>
+    </message>
+    <message>
+      <source>Every line carries a hash of itself and the line before: nothing can be changed, added or taken out afterwards without being seen.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Checking …</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>all points</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>everybody</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>The chain is whole: none of {n} lines was changed, added or taken out afterwards.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>yes</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>undone</source>
+      <translation>zurückgenommen</translation>
+    </message>
+    <message>
+      <source>Undone: {title}</source>
+      <translation>Zurückgenommen: {title}</translation>
+    </message>
+    <message>
+      <source>Done again: {title}</source>
+      <translation>Wiederholt: {title}</translation>
+    </message>
+    <message>
+      <source>Reading the log …</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Check the chain</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Export the log…</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>{n} lines are missing, the first is number {first}: this history is not whole.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>{n} of {all} lines were changed after they were made. The first: number {first}, “{title}”, {when}.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>{n} of {all} lines are on the disk and whole; the rest is not written yet.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>{points} and {n} more</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>object {n}</source>
+      <translation>Objekt {n}</translation>
+    </message>
+    <message>
+      <source>Named: {name}</source>
+      <translation>Benannt: {name}</translation>
+    </message>
+    <message>
+      <source>nobody named</source>
+      <translation>niemandem mit Namen</translation>
+    </message>
+    <message>
+      <source>{n} of {all} lines</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>{first} to {last} ({n})</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Saved: {name}</source>
+      <translation>Gespeichert: {name}</translation>
+    </message>
+    <message>
       <source>Marked: frames {a} to {b}. A state or X applies to them.</source>
       <translation>Markiert: Bilder {a} bis {b}. Ein Zustand oder X gilt für sie.</translation>
     </message>
@@ -106,10 +254,6 @@
     <message>
       <source>Back at: </source>
       <translation>Zurück bei: </translation>
-    </message>
-    <message>
-      <source>Named: {name}</source>
-      <translation>Benannt: {name}</translation>
     </message>
     <message>
       <source>Dope sheet: states of all points over time</source>
@@ -236,10 +380,6 @@
       <translation>{name} liegt nicht mehr unter {path}. Wo ist es?</translation>
     </message>
     <message>
-      <source>Saved: {name}</source>
-      <translation>Gespeichert: {name}</translation>
-    </message>
-    <message>
       <source>The clip's video</source>
       <translation>Video des Clips</translation>
     </message>
@@ -276,16 +416,8 @@
       <translation>Schlüssel</translation>
     </message>
     <message>
-      <source>undone</source>
-      <translation>zurückgenommen</translation>
-    </message>
-    <message>
       <source>Time sheet</source>
       <translation>Zeitaufwand</translation>
-    </message>
-    <message>
-      <source>Audit log</source>
-      <translation>Protokoll der Änderungen</translation>
     </message>
     <message>
       <source>Names and times may be exported: consent is given.</source>
@@ -310,14 +442,6 @@
     <message>
       <source>Export without names</source>
       <translation>Ohne Namen exportieren</translation>
-    </message>
-    <message>
-      <source>Undone: {title}</source>
-      <translation>Zurückgenommen: {title}</translation>
-    </message>
-    <message>
-      <source>Done again: {title}</source>
-      <translation>Wiederholt: {title}</translation>
     </message>
     <message>
       <source>annotated</source>
@@ -372,18 +496,6 @@
       <translation>Wert</translation>
     </message>
     <message>
-      <source>what</source>
-      <translation>was</translation>
-    </message>
-    <message>
-      <source>who</source>
-      <translation>wer</translation>
-    </message>
-    <message>
-      <source>when</source>
-      <translation>wann</translation>
-    </message>
-    <message>
       <source>previous key</source>
       <translation>voriger Schlüssel</translation>
     </message>
@@ -422,10 +534,6 @@
     <message>
       <source>Draw something first.</source>
       <translation>Malen Sie zuerst etwas.</translation>
-    </message>
-    <message>
-      <source>object {n}</source>
-      <translation>Objekt {n}</translation>
     </message>
     <message>
       <source>The pictures of the two projects differ: they are of different clips.</source>
@@ -498,10 +606,6 @@
     <message>
       <source>{n} tracks in common. AJ {aj}, δ {delta}, OA {oa} %. Distance where both see the point: median {median} px, 90 % below {p90} px (1080 lines). Same state in {states}.</source>
       <translation>{n} gemeinsame Spuren. AJ {aj}, δ {delta}, OA {oa} %. Abstand, wo beide den Punkt sehen: Median {median} px, 90 % unter {p90} px (1080 Zeilen). Gleicher Zustand in {states}.</translation>
-    </message>
-    <message>
-      <source>point</source>
-      <translation>Punkt</translation>
     </message>
     <message>
       <source>changed by</source>
@@ -1202,10 +1306,6 @@
     <message>
       <source>Returned to {name}: {reason}</source>
       <translation>An {name} zurückgegeben: {reason}</translation>
-    </message>
-    <message>
-      <source>nobody named</source>
-      <translation>niemandem mit Namen</translation>
     </message>
     <message>
       <source>The annotator's note: {note}</source>
@@ -4518,6 +4618,18 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Wer wann was getan hat; Zeit je Clip und Person.</translation>
     </message>
     <message>
+      <source>Check the log</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Whether anything in it was changed afterwards.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>CSV or JSON; names and times only with consent.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>Annotate a clip…</source>
       <translation>Clip annotieren…</translation>
     </message>
@@ -4842,10 +4954,6 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Ecken je Objekt</translation>
     </message>
     <message>
-      <source>frames</source>
-      <translation>Bilder</translation>
-    </message>
-    <message>
       <source>the camera is taken to stand still; its field of view is taken to be {degrees:.3g} degrees high</source>
       <translation>angenommen wird, dass die Kamera stillsteht und ihr Sichtfeld {degrees:.3g} Grad hoch ist</translation>
     </message>
@@ -5090,6 +5198,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>{count} Spuren zusammenführen</translation>
     </message>
     <message>
+      <source>Merge {count} objects</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Merge {tracks} tracks and {objects} objects</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>Import {count} tracks</source>
       <translation>{count} Spuren importieren</translation>
     </message>
@@ -5248,6 +5364,110 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>far from any key</source>
       <translation>weit von jedem Schlüssel</translation>
+    </message>
+    <message>
+      <source>visible ×{count}</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>occluded ×{count}</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>out of view ×{count}</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>not annotated ×{count}</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>keys: {count}</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>accepted: {count}</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>uncertain: {count}</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>filled by the tracker</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>filled by a line</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>held until the next key</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>x {x:.1f} y {y:.1f}</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>moved by {pixels:.1f} px</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>moved by up to {pixels:.1f} px</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>made</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>deleted</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>called “{name}”</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>note “{name}”</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>annotator “{name}”</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>reviewer “{name}”</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>{what} “{name}”</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>not locked</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>place {count} in the order</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>point number {count}</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>mask drawn: no. {count}</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>times returned: {count}</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>candidate</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>has {keys} keys, allowed are 1 to {value}</source>
@@ -6354,6 +6574,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>geben Sie einen Dateinamen</translation>
     </message>
     <message>
+      <source>does not exist or is no file</source>
+      <translation>gibt es nicht oder ist keine Datei</translation>
+    </message>
+    <message>
+      <source>check the name</source>
+      <translation>prüfen Sie den Namen</translation>
+    </message>
+    <message>
       <source>'{or}' cannot name a camera path</source>
       <translation>„{or}“ kann kein Name eines Kamerapfads sein</translation>
     </message>
@@ -6390,20 +6618,12 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>kann nicht gelesen werden</translation>
     </message>
     <message>
-      <source>check the name</source>
-      <translation>prüfen Sie den Namen</translation>
-    </message>
-    <message>
       <source>is no JSON</source>
       <translation>ist kein JSON</translation>
     </message>
     <message>
       <source>its camera paths are damaged</source>
       <translation>die Kamerapfade darin sind beschädigt</translation>
-    </message>
-    <message>
-      <source>does not exist or is no file</source>
-      <translation>gibt es nicht oder ist keine Datei</translation>
     </message>
     <message>
       <source>is not COCO keypoints as we know them</source>

@@ -126,6 +126,15 @@ def test_points_names_notes_reviews_objects_and_doubts_are_listed_and_taken() ->
     assert mine.digest() == before
 
 
+def test_a_merge_says_what_it_took() -> None:
+    mine = filled()
+    theirs = copied(mine)
+    edit_tracks.put_objects(theirs, [ObjectInfo(9, "bird", 3, "chosen")]).do(theirs)
+    assert merge(mine, theirs, preview(mine, mine, theirs), {}).title == "Merge 1 objects"
+    edit_tracks.add_track(theirs, 9, 1).do(theirs)
+    assert merge(mine, theirs, preview(mine, mine, theirs), {}).title == "Merge 1 tracks and 1 objects"
+
+
 def test_a_deletion_against_work_is_a_conflict_and_locked_tracks_stay() -> None:
     base = filled()
     mine, theirs = copied(base), copied(base)
