@@ -149,6 +149,7 @@ SENTENCES: dict[str, str] = {
     "log_gone": "deleted",
     "log_name": "called “{name}”",
     "log_note": "note “{name}”",
+    "log_review_note": "the reviewer says “{name}”",
     "log_person": "annotator “{name}”",
     "log_reviewer": "reviewer “{name}”",
     "log_meta": "{what} “{name}”",

@@ -15,7 +15,13 @@ _STATES = ((VISIBLE, "log_visible"), (OCCLUDED, "log_occluded"), (OUT_OF_VIEW, "
 _FLAGS = ((KEY, KEY, "log_keys"), (KEY | CONFIRMED, CONFIRMED, "log_accepted"), (UNCERTAIN, UNCERTAIN, "log_uncertain"))
 _MODES = ("log_by_tracker", "log_by_line", "log_by_hold")
 _CARRIED = ("merge", "import", "swap", "split", "join", "delete")  # keys that these bring were placed elsewhere
-_WORDY = {"name": "log_name", "note": "log_note", "person": "log_person", "reviewer": "log_reviewer"}
+_WORDY = {
+    "name": "log_name",
+    "note": "log_note",
+    "person": "log_person",
+    "reviewer": "log_reviewer",
+    "review_note": "log_review_note",
+}
 
 
 @dataclass(frozen=True)

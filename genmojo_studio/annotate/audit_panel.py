@@ -34,7 +34,7 @@ from genmojo_studio.translate import told, tr
 
 _Index = QModelIndex | QPersistentModelIndex
 _POINTS = 3  # of an edit's points that a cell names
-_WIDTHS = (190, 90, 210, 76, 110, 90, 150, 220, 60)  # px of the columns
+_WIDTHS = (176, 90, 200, 104, 110, 84, 150, 220, 50)  # px of the columns
 _WHAT = 2
 
 

@@ -25,11 +25,11 @@
     </message>
     <message>
       <source>Export the log</source>
-      <translation type="unfinished" />
+      <translation>Protokoll exportieren</translation>
     </message>
     <message>
       <source>when (local time)</source>
-      <translation type="unfinished" />
+      <translation>wann (Ortszeit)</translation>
     </message>
     <message>
       <source>who</source>
@@ -41,7 +41,7 @@
     </message>
     <message>
       <source>in effect</source>
-      <translation type="unfinished" />
+      <translation>gilt</translation>
     </message>
     <message>
       <source>point</source>
@@ -53,31 +53,31 @@
     </message>
     <message>
       <source>before</source>
-      <translation type="unfinished" />
+      <translation>vorher</translation>
     </message>
     <message>
       <source>after</source>
-      <translation type="unfinished" />
+      <translation>nachher</translation>
     </message>
     <message>
       <source>version</source>
-      <translation type="unfinished" />
+      <translation>Version</translation>
     </message>
     <message>
       <source>Lines of which point</source>
-      <translation type="unfinished" />
+      <translation>Zeilen welches Punkts</translation>
     </message>
     <message>
       <source>Lines of which person</source>
-      <translation type="unfinished" />
+      <translation>Zeilen welcher Person</translation>
     </message>
     <message>
       <source>Only what stands</source>
-      <translation type="unfinished" />
+      <translation>Nur was gilt</translation>
     </message>
     <message>
       <source>Leaves out edits that were undone, undoing itself and named moments.</source>
-      <translation type="unfinished" />
+      <translation>Lässt zurückgenommene Änderungen, das Zurücknehmen selbst und benannte Momente weg.</translation>
     </message>
     <message>
       <source>Audit log</source>
@@ -85,27 +85,27 @@
     </message>
     <message>
       <source>Every line carries a hash of itself and the line before: nothing can be changed, added or taken out afterwards without being seen.</source>
-      <translation type="unfinished" />
+      <translation>Jede Zeile trägt einen Hash von sich und der Zeile davor: Nichts kann nachträglich geändert, ergänzt oder entfernt werden, ohne dass man es sieht.</translation>
     </message>
     <message>
       <source>Checking …</source>
-      <translation type="unfinished" />
+      <translation>Wird geprüft …</translation>
     </message>
     <message>
       <source>all points</source>
-      <translation type="unfinished" />
+      <translation>alle Punkte</translation>
     </message>
     <message>
       <source>everybody</source>
-      <translation type="unfinished" />
+      <translation>alle Personen</translation>
     </message>
     <message>
       <source>The chain is whole: none of {n} lines was changed, added or taken out afterwards.</source>
-      <translation type="unfinished" />
+      <translation>Die Kette ist vollständig: Keine von {n} Zeilen wurde nachträglich geändert, ergänzt oder entfernt.</translation>
     </message>
     <message>
       <source>yes</source>
-      <translation type="unfinished" />
+      <translation>ja</translation>
     </message>
     <message>
       <source>undone</source>
@@ -121,31 +121,31 @@
     </message>
     <message>
       <source>Reading the log …</source>
-      <translation type="unfinished" />
+      <translation>Das Protokoll wird gelesen …</translation>
     </message>
     <message>
       <source>Check the chain</source>
-      <translation type="unfinished" />
+      <translation>Kette prüfen</translation>
     </message>
     <message>
       <source>Export the log…</source>
-      <translation type="unfinished" />
+      <translation>Protokoll exportieren…</translation>
     </message>
     <message>
       <source>{n} lines are missing, the first is number {first}: this history is not whole.</source>
-      <translation type="unfinished" />
+      <translation>{n} Zeilen fehlen, die erste ist Nummer {first}: Diese Geschichte ist nicht vollständig.</translation>
     </message>
     <message>
       <source>{n} of {all} lines were changed after they were made. The first: number {first}, “{title}”, {when}.</source>
-      <translation type="unfinished" />
+      <translation>{n} von {all} Zeilen wurden nachträglich geändert. Die erste: Nummer {first}, „{title}“, {when}.</translation>
     </message>
     <message>
       <source>{n} of {all} lines are on the disk and whole; the rest is not written yet.</source>
-      <translation type="unfinished" />
+      <translation>{n} von {all} Zeilen sind gespeichert und unversehrt; der Rest ist noch nicht geschrieben.</translation>
     </message>
     <message>
       <source>{points} and {n} more</source>
-      <translation type="unfinished" />
+      <translation>{points} und {n} weitere</translation>
     </message>
     <message>
       <source>object {n}</source>
@@ -161,11 +161,11 @@
     </message>
     <message>
       <source>{n} of {all} lines</source>
-      <translation type="unfinished" />
+      <translation>{n} von {all} Zeilen</translation>
     </message>
     <message>
       <source>{first} to {last} ({n})</source>
-      <translation type="unfinished" />
+      <translation>{first} bis {last} ({n})</translation>
     </message>
     <message>
       <source>Saved: {name}</source>
@@ -4619,15 +4619,15 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     </message>
     <message>
       <source>Check the log</source>
-      <translation type="unfinished" />
+      <translation>Protokoll prüfen</translation>
     </message>
     <message>
       <source>Whether anything in it was changed afterwards.</source>
-      <translation type="unfinished" />
+      <translation>Ob darin nachträglich etwas geändert wurde.</translation>
     </message>
     <message>
       <source>CSV or JSON; names and times only with consent.</source>
-      <translation type="unfinished" />
+      <translation>CSV oder JSON; Namen und Zeiten nur mit Einwilligung.</translation>
     </message>
     <message>
       <source>Annotate a clip…</source>
@@ -5199,11 +5199,11 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     </message>
     <message>
       <source>Merge {count} objects</source>
-      <translation type="unfinished" />
+      <translation>{count} Objekte übernehmen</translation>
     </message>
     <message>
       <source>Merge {tracks} tracks and {objects} objects</source>
-      <translation type="unfinished" />
+      <translation>{tracks} Spuren und {objects} Objekte übernehmen</translation>
     </message>
     <message>
       <source>Import {count} tracks</source>
@@ -5367,107 +5367,111 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     </message>
     <message>
       <source>visible ×{count}</source>
-      <translation type="unfinished" />
+      <translation>sichtbar ×{count}</translation>
     </message>
     <message>
       <source>occluded ×{count}</source>
-      <translation type="unfinished" />
+      <translation>verdeckt ×{count}</translation>
     </message>
     <message>
       <source>out of view ×{count}</source>
-      <translation type="unfinished" />
+      <translation>außer Sicht ×{count}</translation>
     </message>
     <message>
       <source>not annotated ×{count}</source>
-      <translation type="unfinished" />
+      <translation>nicht annotiert ×{count}</translation>
     </message>
     <message>
       <source>keys: {count}</source>
-      <translation type="unfinished" />
+      <translation>Schlüssel: {count}</translation>
     </message>
     <message>
       <source>accepted: {count}</source>
-      <translation type="unfinished" />
+      <translation>angenommen: {count}</translation>
     </message>
     <message>
       <source>uncertain: {count}</source>
-      <translation type="unfinished" />
+      <translation>unsicher: {count}</translation>
     </message>
     <message>
       <source>filled by the tracker</source>
-      <translation type="unfinished" />
+      <translation>vom Tracker gefüllt</translation>
     </message>
     <message>
       <source>filled by a line</source>
-      <translation type="unfinished" />
+      <translation>als Linie gefüllt</translation>
     </message>
     <message>
       <source>held until the next key</source>
-      <translation type="unfinished" />
+      <translation>gehalten bis zum nächsten Schlüssel</translation>
     </message>
     <message>
       <source>x {x:.1f} y {y:.1f}</source>
-      <translation type="unfinished" />
+      <translation>x {x:.1f} y {y:.1f}</translation>
     </message>
     <message>
       <source>moved by {pixels:.1f} px</source>
-      <translation type="unfinished" />
+      <translation>um {pixels:.1f} px verschoben</translation>
     </message>
     <message>
       <source>moved by up to {pixels:.1f} px</source>
-      <translation type="unfinished" />
+      <translation>um bis zu {pixels:.1f} px verschoben</translation>
     </message>
     <message>
       <source>made</source>
-      <translation type="unfinished" />
+      <translation>angelegt</translation>
     </message>
     <message>
       <source>deleted</source>
-      <translation type="unfinished" />
+      <translation>gelöscht</translation>
     </message>
     <message>
       <source>called “{name}”</source>
-      <translation type="unfinished" />
+      <translation>heißt „{name}“</translation>
     </message>
     <message>
       <source>note “{name}”</source>
-      <translation type="unfinished" />
+      <translation>Notiz „{name}“</translation>
+    </message>
+    <message>
+      <source>the reviewer says “{name}”</source>
+      <translation>Prüfung sagt „{name}“</translation>
     </message>
     <message>
       <source>annotator “{name}”</source>
-      <translation type="unfinished" />
+      <translation>annotiert von „{name}“</translation>
     </message>
     <message>
       <source>reviewer “{name}”</source>
-      <translation type="unfinished" />
+      <translation>geprüft von „{name}“</translation>
     </message>
     <message>
       <source>{what} “{name}”</source>
-      <translation type="unfinished" />
+      <translation>{what} „{name}“</translation>
     </message>
     <message>
       <source>not locked</source>
-      <translation type="unfinished" />
+      <translation>nicht gesperrt</translation>
     </message>
     <message>
       <source>place {count} in the order</source>
-      <translation type="unfinished" />
+      <translation>Platz {count} in der Reihenfolge</translation>
     </message>
     <message>
       <source>point number {count}</source>
-      <translation type="unfinished" />
+      <translation>Punkt Nummer {count}</translation>
     </message>
     <message>
       <source>mask drawn: no. {count}</source>
-      <translation type="unfinished" />
+      <translation>gezeichnete Maske: Nr. {count}</translation>
     </message>
     <message>
       <source>times returned: {count}</source>
-      <translation type="unfinished" />
+      <translation>zurückgegeben: {count}-mal</translation>
     </message>
     <message>
       <source>candidate</source>
-      <translation type="unfinished" />
+      <translation>Kandidat</translation>
     </message>
     <message>
       <source>has {keys} keys, allowed are 1 to {value}</source>

@@ -46,8 +46,8 @@ def test_undone_edits_are_marked_and_lines_are_chosen_by_point_person_and_standi
     (moved,) = (row for row in undone if "moved by" in row[7])
     model = panel.table.model()
     line = rows.index(moved)
-    assert model.index(line, 2).data(int(0x6)).strikeOut()  # FontRole
-    assert not isinstance(model.index(0, 2).data(int(0x6)), QFont)
+    assert model.index(line, 2).data(0x6).strikeOut()  # FontRole
+    assert not isinstance(model.index(0, 2).data(0x6), QFont)
     panel.track.setCurrentIndex(panel.track.findData(2))
     assert {row[4] for row in texts(panel)} == {panel.track.currentText()}
     panel.track.setCurrentIndex(0)
