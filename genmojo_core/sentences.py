@@ -131,6 +131,12 @@ SENTENCES: dict[str, str] = {
     "doubt_flicker": "state changes back and forth",
     "doubt_confidence": "the tracker is unsure",
     "doubt_keys": "far from any key",
+    # why a figure of the work on a clip is not known (`store/work_figures.py`)
+    "figure_no_track": "no track yet",
+    "figure_empty": "nothing is annotated yet",
+    "figure_no_review": "nothing was reviewed yet",
+    "figure_no_times": "times were taken out of this copy",
+    "figure_pace": "needs {count} accepted places and {seconds} s of work",
     # what stood before and after an edit, in the audit log (`store/edit_words.py`)
     "log_visible": "visible ×{count}",
     "log_occluded": "occluded ×{count}",

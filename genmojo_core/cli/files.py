@@ -73,19 +73,20 @@ def _kind(path: str) -> str:
 
 def _project(path: Path) -> dict[str, Any]:
     """An annotation: how far it is, who worked on it how long (with their consent), where it can be returned to."""
-    from genmojo_core.store import project_file
+    from genmojo_core.store import audit, project_file, work_figures
     from genmojo_core.store.time_sheet import time_sheet
     from genmojo_core.tracks.statistics import clip_figures
 
     loaded = project_file.load(path)
     rows, figures = loaded.log.rows, clip_figures(loaded.annotation)
     consent = figures["consent"] == "yes"
+    keys = work_figures.placed_keys(audit.entries(path)) if consent else {}
     if not consent:
         figures.pop("people", None)
     return {"clip": loaded.info.name, "size": list(loaded.info.size), **figures,
             "edits": sum(row.verb == "do" for row in rows),
             "checkpoints": [row.title for row in rows if row.verb == "checkpoint"],
-            "time": [vars(day) for day in time_sheet(rows)] if consent else [],
+            "time": [vars(day) for day in time_sheet(rows, keys=keys)] if consent else [],
             "backups": len(project_file.backups(path))}  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""`genmojo log`: the audit log of a project as a table, and whether it is as it was written."""
+"""`genmojo log` and `genmojo times`: the audit log of a project, whether it is as written, and what the work cost."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 
 def add_commands(commands: Any) -> None:
-    """Add `log`."""
+    """Add `log` and `times`."""
     log = commands.add_parser("log", help="who did what to an annotation: checks its chain, writes CSV or JSON")
     log.add_argument("file", metavar="FILE.genmojo")
     log.add_argument("-o", "--output", metavar="LOG.csv|LOG.json", help="names and times only where consent is given")
@@ -16,6 +16,12 @@ def add_commands(commands: Any) -> None:
     log.add_argument("--person", metavar="NAME", help="only edits of one person")
     log.add_argument("--standing", action="store_true", help="leave out what was undone")
     log.set_defaults(run=run_log)
+    times = commands.add_parser("times", help="seconds, keys, accepted places, reopened tracks and time left, per clip "
+                                "and person")  # fmt: skip
+    times.add_argument("files", metavar="FILE.genmojo", nargs="+")
+    times.add_argument("-o", "--output", metavar="FIGURES.csv", help="names and times only where consent is given")
+    times.add_argument("--stride", type=int, default=2, metavar="N", help="frames from one look to the next (2)")
+    times.set_defaults(run=run_times)
 
 
 def run_log(args: argparse.Namespace) -> dict[str, Any]:
@@ -36,3 +42,25 @@ def run_log(args: argparse.Namespace) -> dict[str, Any]:
     return {"file": args.file, "lines": len(found), "undone": sum(not e.stands for e in found), "whole": not faults,
             "faults": faults, **({"path": args.output} if args.output else {}),
             "exit_code": 2 if faults else 0}  # fmt: skip
+
+
+def run_times(args: argparse.Namespace) -> dict[str, Any]:
+    """Figures of each clip, and of each person where all projects have consent."""
+    from genmojo_core.errors import GenmojoError
+    from genmojo_core.store import audit, project_file, work_figures
+    from genmojo_core.store.atomic import check_writable
+
+    if args.stride < 1:
+        raise GenmojoError("argument", "must be 1 or more", "--stride")
+    if args.output:
+        check_writable(args.output)
+    rows, consents = [], []
+    for name in args.files:
+        loaded = project_file.load(Path(name))
+        consents.append(loaded.annotation.meta.get("consent", ""))
+        rows += work_figures.figures(loaded.annotation, audit.entries(Path(name)), loaded.info.name, args.stride)
+    consent = "yes" if all(c == "yes" for c in consents) else ""
+    if args.output:
+        work_figures.write(rows, args.output, consent)
+    return {"consent": consent or "no", "rows": work_figures.given(rows, consent),
+            **({"path": args.output} if args.output else {})}  # fmt: skip

@@ -8,7 +8,7 @@ from __future__ import annotations
 import csv
 import io
 import sqlite3
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import asdict, dataclass, replace
 from datetime import datetime
@@ -17,6 +17,7 @@ from pathlib import Path
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store import project_file
 from genmojo_core.store.atomic import write_bytes
+from genmojo_core.store.audit import local
 from genmojo_core.store.project_log import COLUMNS, Row
 
 IDLE_SECONDS = 60.0  # a pause longer than this is no work; what came before it counts that long
@@ -24,7 +25,7 @@ IDLE_SECONDS = 60.0  # a pause longer than this is no work; what came before it 
 
 @dataclass(frozen=True)
 class WorkDay:
-    """A person's work on one day (UTC): seconds, edits, keys placed, undone steps, tracks touched."""
+    """A person's work on one day of this machine's zone: seconds, edits, keys placed, undone steps, tracks touched."""
 
     person: str
     day: str
@@ -35,31 +36,41 @@ class WorkDay:
     tracks: int
 
 
-def time_sheet(rows: Sequence[Row], idle: float = IDLE_SECONDS) -> list[WorkDay]:
-    """Work per person and day, oldest first. What machines add within a step counts as the person's."""
+def time_sheet(rows: Sequence[Row], idle: float = IDLE_SECONDS, keys: Mapping[int, int] | None = None) -> list[WorkDay]:
+    """Work per person and day, oldest first. What machines add within a step counts as the person's.
+
+    Args:
+        idle: longest pause, seconds, that counts as work. keys: placed by each line, by its number
+            (`work_figures.placed_keys`); without it lines that only placed a key count, first placements do not.
+    """
     groups: dict[tuple[str, str], list[Row]] = {}
     for row in rows:
-        groups.setdefault((row.who, row.at[:10]), []).append(row)
+        groups.setdefault((row.who, local(row.at)[:10]), []).append(row)
     sheet = []
     for (who, day), mine in sorted(groups.items(), key=lambda g: (g[0][1], g[0][0])):
         stamps = [datetime.fromisoformat(row.at).timestamp() for row in mine]
         gaps = [max(later - earlier, 0.0) for earlier, later in zip(stamps[:-1], stamps[1:], strict=True)]
         seconds = sum(min(gap, idle) for gap in gaps) + min(idle, 5.0)
-        sheet.append(WorkDay(who, day, seconds, sum(r.verb == "do" for r in mine), sum(r.kind == "key" for r in mine),
+        placed = sum(r.kind == "key" if keys is None else keys.get(r.seq, 0) for r in mine)
+        sheet.append(WorkDay(who, day, seconds, sum(r.verb == "do" for r in mine), placed,
                              sum(r.kind == "undo" for r in mine),
                              len({r.track for r in mine if r.track is not None})))  # fmt: skip
     return sheet
 
 
-def write_time_sheet(rows: Sequence[Row], consent: str, path: str | Path) -> None:
-    """The time sheet as csv. Raises GenmojoError("argument") without consent, "io"."""
+def write_time_sheet(rows: Sequence[Row], consent: str, path: str | Path, clip: str = "",
+                     keys: Mapping[int, int] | None = None) -> None:  # fmt: skip
+    """The time sheet as csv, with the clip's name in a column; `keys` as for `time_sheet`.
+
+    Raises GenmojoError("argument") without consent, "io".
+    """
     if consent != "yes":
         raise GenmojoError("argument", "has no consent to export times of people", str(path),
                            "ask them and set the consent flag")  # fmt: skip
     out = io.StringIO()
-    writer = csv.DictWriter(out, list(WorkDay.__dataclass_fields__), lineterminator="\n")
+    writer = csv.DictWriter(out, ["clip", *WorkDay.__dataclass_fields__], lineterminator="\n")
     writer.writeheader()
-    writer.writerows(asdict(day) for day in time_sheet(rows))
+    writer.writerows({"clip": clip} | asdict(day) for day in time_sheet(rows, keys=keys))
     write_bytes(path, out.getvalue().encode())
 
 

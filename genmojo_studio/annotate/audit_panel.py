@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, QSortFilterProxyModel, Qt
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, QSortFilterProxyModel, Qt, Signal
 from PySide6.QtGui import QFont, QPalette
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -96,6 +96,8 @@ class _Filter(QSortFilterProxyModel):
 class AuditPanel(QWidget):
     """The log of one project, read in the background; `model` is None until it is there."""
 
+    ready = Signal(object)  # list of audit.Entry
+
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session, self.tasks = session, Tasks()
@@ -147,6 +149,7 @@ class AuditPanel(QWidget):
         self.person.currentIndexChanged.connect(self._filter)
         self.standing.toggled.connect(self._filter)
         self._filter()
+        self.ready.emit(entries)
 
     def _filter(self) -> None:
         if self._rows is None or self.model is None:

@@ -392,7 +392,39 @@
       <translation>Protokoll und Statistik</translation>
     </message>
     <message>
-      <source>Clip</source>
+      <source>Figures of the clip and its people</source>
+      <translation>Zahlen zum Clip und zu den Personen</translation>
+    </message>
+    <message>
+      <source>Time sheet</source>
+      <translation>Zeitaufwand</translation>
+    </message>
+    <message>
+      <source>Clip and people</source>
+      <translation>Clip und Personen</translation>
+    </message>
+    <message>
+      <source>Names and times may be exported: consent is given.</source>
+      <translation>Namen und Zeiten dürfen exportiert werden: Die Zustimmung liegt vor.</translation>
+    </message>
+    <message>
+      <source>Names and times are not exported: no consent is given (step 4).</source>
+      <translation>Namen und Zeiten werden nicht exportiert: Es liegt keine Zustimmung vor (Schritt 4).</translation>
+    </message>
+    <message>
+      <source>Export the figures…</source>
+      <translation>Zahlen exportieren…</translation>
+    </message>
+    <message>
+      <source>Export the time sheet…</source>
+      <translation>Zeitblatt exportieren…</translation>
+    </message>
+    <message>
+      <source>Export without names…</source>
+      <translation>Ohne Namen exportieren…</translation>
+    </message>
+    <message>
+      <source>clip</source>
       <translation>Clip</translation>
     </message>
     <message>
@@ -416,24 +448,12 @@
       <translation>Schlüssel</translation>
     </message>
     <message>
-      <source>Time sheet</source>
-      <translation>Zeitaufwand</translation>
+      <source>tracks</source>
+      <translation>Spuren</translation>
     </message>
     <message>
-      <source>Names and times may be exported: consent is given.</source>
-      <translation>Namen und Zeiten dürfen exportiert werden: Die Zustimmung liegt vor.</translation>
-    </message>
-    <message>
-      <source>Names and times are not exported: no consent is given (step 4).</source>
-      <translation>Namen und Zeiten werden nicht exportiert: Es liegt keine Zustimmung vor (Schritt 4).</translation>
-    </message>
-    <message>
-      <source>Export the time sheet…</source>
-      <translation>Zeitblatt exportieren…</translation>
-    </message>
-    <message>
-      <source>Export without names…</source>
-      <translation>Ohne Namen exportieren…</translation>
+      <source>Export the figures</source>
+      <translation>Zahlen exportieren</translation>
     </message>
     <message>
       <source>Export the time sheet</source>
@@ -444,12 +464,28 @@
       <translation>Ohne Namen exportieren</translation>
     </message>
     <message>
-      <source>annotated</source>
-      <translation>annotiert</translation>
+      <source>{n:.1f} h</source>
+      <translation>{n:.1f} h</translation>
     </message>
     <message>
-      <source>accepted by a person</source>
-      <translation>von einem Menschen bestätigt</translation>
+      <source>time at work</source>
+      <translation>Arbeitszeit</translation>
+    </message>
+    <message>
+      <source>keys per track (mean)</source>
+      <translation>Schlüssel je Spur (Mittel)</translation>
+    </message>
+    <message>
+      <source>time per track</source>
+      <translation>Zeit je Spur</translation>
+    </message>
+    <message>
+      <source>places looked at</source>
+      <translation>angesehene Stellen</translation>
+    </message>
+    <message>
+      <source>share looked at</source>
+      <translation>Anteil angesehen</translation>
     </message>
     <message>
       <source>visible</source>
@@ -468,32 +504,48 @@
       <translation>unsicher</translation>
     </message>
     <message>
+      <source>tracks sent back</source>
+      <translation>zurückgegebene Spuren</translation>
+    </message>
+    <message>
+      <source>share of reviewed tracks sent back</source>
+      <translation>Anteil geprüfter Spuren, die zurückgingen</translation>
+    </message>
+    <message>
+      <source>places still to look at</source>
+      <translation>noch anzusehende Stellen</translation>
+    </message>
+    <message>
+      <source>time for what is left</source>
+      <translation>Zeit für den Rest</translation>
+    </message>
+    <message>
       <source>objects</source>
       <translation>Objekte</translation>
-    </message>
-    <message>
-      <source>tracks</source>
-      <translation>Spuren</translation>
-    </message>
-    <message>
-      <source>keys per track (mean)</source>
-      <translation>Schlüssel je Spur (Mittel)</translation>
     </message>
     <message>
       <source>motion at 256 x 256</source>
       <translation>Bewegung bei 256 x 256</translation>
     </message>
     <message>
-      <source>tracks sent back</source>
-      <translation>zurückgegebene Spuren</translation>
+      <source>Seconds at work come from the log; a pause counts as one minute at most. A key belongs to whoever placed or moved it last. What is left and its time are for the stride set above the frame.</source>
+      <translation>Die Arbeitszeit stammt aus dem Protokoll; eine Pause zählt höchstens eine Minute. Ein Schlüssel gehört, wer ihn zuletzt gesetzt oder verschoben hat. Was noch fehlt und wie lange es dauert, gilt für die Schrittweite über dem Bild.</translation>
     </message>
     <message>
       <source>figure</source>
       <translation>Kennzahl</translation>
     </message>
     <message>
-      <source>value</source>
-      <translation>Wert</translation>
+      <source>whole clip</source>
+      <translation>ganzer Clip</translation>
+    </message>
+    <message>
+      <source>{n} s</source>
+      <translation>{n} s</translation>
+    </message>
+    <message>
+      <source>{n:.1f} min</source>
+      <translation>{n:.1f} min</translation>
     </message>
     <message>
       <source>previous key</source>
@@ -3172,6 +3224,10 @@
       <translation>vorhergesagt</translation>
     </message>
     <message>
+      <source>annotated</source>
+      <translation>annotiert</translation>
+    </message>
+    <message>
       <source>imported</source>
       <translation>importiert</translation>
     </message>
@@ -3288,10 +3344,6 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>This run</source>
       <translation>Dieser Lauf</translation>
-    </message>
-    <message>
-      <source>clip</source>
-      <translation>Clip</translation>
     </message>
     <message>
       <source>project</source>
@@ -5364,6 +5416,26 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>far from any key</source>
       <translation>weit von jedem Schlüssel</translation>
+    </message>
+    <message>
+      <source>no track yet</source>
+      <translation>noch keine Spur</translation>
+    </message>
+    <message>
+      <source>nothing is annotated yet</source>
+      <translation>noch nichts annotiert</translation>
+    </message>
+    <message>
+      <source>nothing was reviewed yet</source>
+      <translation>noch nichts geprüft</translation>
+    </message>
+    <message>
+      <source>times were taken out of this copy</source>
+      <translation>Zeiten wurden aus dieser Kopie entfernt</translation>
+    </message>
+    <message>
+      <source>needs {count} accepted places and {seconds} s of work</source>
+      <translation>braucht {count} angenommene Stellen und {seconds} s Arbeit</translation>
     </message>
     <message>
       <source>visible ×{count}</source>

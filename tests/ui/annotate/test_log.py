@@ -88,3 +88,20 @@ def test_the_history_of_a_track_shows_only_what_stands(dialog, workspace):
     shown = [workspace.review.history.item(n).text() for n in range(workspace.review.history.count())]
     assert shown[0].startswith("Needs fix: drift")
     assert len(shown) == 2  # the nudge was undone
+
+
+def test_figures_of_clip_and_people_say_in_words_what_is_not_known(dialog, workspace, tmp_path, monkeypatch):
+    table = dialog.figures
+    titles = [table.horizontalHeaderItem(x).text() for x in range(table.columnCount())]
+    assert titles == ["figure", "whole clip", "Ada", "Bo"]
+    cells = {table.item(y, 0).text(): [table.item(y, x).text() for x in (1, 2, 3)] for y in range(table.rowCount())}
+    points = len(workspace.session.annotation.tracks)
+    assert cells["keys"] == [str(points), str(points), "0"]  # first placements
+    assert cells["share of reviewed tracks sent back"][0] == "100.0%"
+    assert "needs 10" in cells["time for what is left"][0]
+    assert dialog.sheet.item(0, 0).text() == workspace.session.project.info.name
+    assert not dialog.export_sheet.isEnabled()
+    target = tmp_path / "figures.csv"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(target), "CSV (*.csv)"))
+    dialog.export_figures.click()
+    assert "Ada" not in target.read_text("utf-8-sig")
