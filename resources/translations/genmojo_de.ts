@@ -388,6 +388,10 @@
       <translation>{n} Änderungen konnten nicht geschrieben werden. Platz schaffen und erneut versuchen, oder eine Kopie anderswo speichern.</translation>
     </message>
     <message>
+      <source>Seconds at work come from the log; a pause counts as one minute at most. A key belongs to whoever placed or moved it last. What is left and its time are for the stride set above the frame.</source>
+      <translation>Die Arbeitszeit stammt aus dem Protokoll; eine Pause zählt höchstens eine Minute. Ein Schlüssel gehört, wer ihn zuletzt gesetzt oder verschoben hat. Was noch fehlt und wie lange es dauert, gilt für die Schrittweite über dem Bild.</translation>
+    </message>
+    <message>
       <source>Log and statistics</source>
       <translation>Protokoll und Statistik</translation>
     </message>
@@ -526,10 +530,6 @@
     <message>
       <source>motion at 256 x 256</source>
       <translation>Bewegung bei 256 x 256</translation>
-    </message>
-    <message>
-      <source>Seconds at work come from the log; a pause counts as one minute at most. A key belongs to whoever placed or moved it last. What is left and its time are for the stride set above the frame.</source>
-      <translation>Die Arbeitszeit stammt aus dem Protokoll; eine Pause zählt höchstens eine Minute. Ein Schlüssel gehört, wer ihn zuletzt gesetzt oder verschoben hat. Was noch fehlt und wie lange es dauert, gilt für die Schrittweite über dem Bild.</translation>
     </message>
     <message>
       <source>figure</source>
