@@ -131,6 +131,7 @@ _VIEW = (
     ),
     _action("view.time_out", "Zoom out of time", "Ctrl+-", "More frames in dope sheet and graphs."),
     _action("view.time_fit", "Whole clip in the dope sheet", "Ctrl+0", "All frames; a double click there does it too."),
+    _action("view.legend", "Signs of the dope sheet", "Shift+F1", "What they mean, and what the mouse does there."),
     _action(
         "view.follow", "View follows the point", "L", "Keeps the point in the middle.", checkable=True, cvat="Shift+L"
     ),

@@ -17,6 +17,7 @@ from genmojo_studio.annotate.keeping import Keeping
 from genmojo_studio.annotate.object_verbs import ObjectVerbs
 from genmojo_studio.annotate.placing import Placing
 from genmojo_studio.annotate.session import TRAILS
+from genmojo_studio.annotate.sheet_menu import SheetMenu
 from genmojo_studio.translate import decimal, tr
 
 if TYPE_CHECKING:
@@ -91,6 +92,7 @@ class Hands:
         w.canvas.hovered.connect(self.hovered)
         w.canvas.cycled.connect(self.cycle)
         w.play.sheet.painted.connect(self.painted)
+        self.sheet_menu = SheetMenu(w, self._s, self._solved_after)
         w.play.graphs.moved.connect(self.knot_moved)
         w.refine.spot_chosen.connect(self.going.show_spot)
         w.refine.returned.fixed_wanted.connect(self._fixed)
@@ -166,6 +168,7 @@ class Hands:
             "view.time_in": lambda: w.play.view.zoom(2),
             "view.time_out": lambda: w.play.view.zoom(-2),
             "view.time_fit": w.play.view.fit,
+            "view.legend": w.play.show_legend,
             "view.follow": lambda: w.screen_link.set_follow(not w.screen_link.follow),
             "view.loupe_stay": self.loupe_toggle,
             "view.loupe_smooth": w.screen_link.switch_smooth,

@@ -25,6 +25,7 @@ from genmojo_studio.actions import ActionTable
 from genmojo_studio.annotate.dope_sheet import DopeSheet
 from genmojo_studio.annotate.graphs import Graphs
 from genmojo_studio.annotate.session import Session
+from genmojo_studio.annotate.sheet_legend import SheetLegend
 from genmojo_studio.annotate.time_view import TimeView
 from genmojo_studio.annotate.timeline import Timeline
 from genmojo_studio.icons import icon
@@ -106,6 +107,7 @@ class PlayPanel(QWidget):
         self.sheet, self.graphs = DopeSheet(session, self.view), Graphs(session, self.view)
         self.timeline = Timeline(session, self.view)
         self.brush = QComboBox()
+        self.legend: SheetLegend | None = None
         self.tabs, self.stack = QTabBar(), QStackedWidget()
         for title, widget in ((tr("Dope sheet"), self.sheet), (tr("Graphs"), self.graphs)):
             self.tabs.addTab(title)
@@ -171,7 +173,22 @@ class PlayPanel(QWidget):
         self.speed.setAccessibleName(tr("Speed"))
         self.speed.currentIndexChanged.connect(self._take_speed)
         row.addWidget(self.speed)
+        self.help = QToolButton()
+        self.help.setText("?")
+        self.help.setObjectName("annotate.view.legend")
+        self.help.setAccessibleName(tr("Signs of the dope sheet"))
+        self.help.setToolTip(tr("What the signs mean, and what the mouse does"))
+        self.help.clicked.connect(self._clicked)
+        row.addWidget(self.help)
         return row
+
+    def show_legend(self) -> None:
+        """What the signs of the dope sheet mean."""
+        if self.legend is not None:
+            self.legend.close()
+            self.legend.deleteLater()
+        self.legend = SheetLegend(self)  # drawn anew: the theme may have changed
+        self.legend.show()
 
     def _clicked(self) -> None:
         sender = self.sender()

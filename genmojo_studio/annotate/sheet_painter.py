@@ -22,7 +22,7 @@ from genmojo_studio.annotate.time_view import Axis
 
 RULER, ROW, LABEL = 30, 18, 168
 MARKED = QColor(214, 142, 52)
-_DECODED = QColor(90, 170, 110)
+DECODED = QColor(90, 170, 110)
 _SHORT = 6.0  # pixels; a shorter segment shows no line
 _STEP = 6.0  # pixels of a step of the line of a held segment
 
@@ -94,7 +94,7 @@ class SheetPainter:
     def over(self, painter: QPainter, axis: Axis) -> None:
         """On the ruler: frames that are decoded, and the run marked by [ and ]."""
         for first, end in runs(self._session.cache.held()):
-            self._band(painter, axis, (first, end), (23.0, 3.0), _DECODED)
+            self._band(painter, axis, (first, end), (23.0, 3.0), DECODED)
         run = marked(self._session)
         if run is not None:
             tint = QColor(MARKED)

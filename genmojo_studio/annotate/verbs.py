@@ -185,8 +185,8 @@ def accept(session: Session, direction: int = 1) -> bool:
     return True
 
 
-def set_mode(session: Session) -> None:
-    """The segment around the frame: tracker, then line, then hold."""
+def set_mode(session: Session, mode: int | None = None) -> None:
+    """How the segment around the frame is filled; without `mode` the next of tracker, line and hold."""
     track = session.track
     if track is None:
         return
@@ -194,11 +194,11 @@ def set_mode(session: Session) -> None:
     if start is None or end is None:
         session.said.emit(tr("Only between two keys there is a choice: place one on either side."))
         return
-    mode = int(session.annotation.track(track).mode[start])
+    new = (int(session.annotation.track(track).mode[start]) + 1) % 3 if mode is None else mode
     names = (tr("tracker"), tr("line"), tr("hold"))
-    step = attempt(session, lambda: keys.set_mode(session.annotation, track, session.frame, (mode + 1) % 3))
+    step = attempt(session, lambda: keys.set_mode(session.annotation, track, session.frame, new))
     if step is not None:
-        session.said.emit(tr("This segment is filled by: {mode}").format(mode=names[(mode + 1) % 3]))
+        session.said.emit(tr("This segment is filled by: {mode}").format(mode=names[new]))
 
 
 def clear(session: Session, *, after: bool) -> None:

@@ -928,6 +928,14 @@
       <translation>Tempo</translation>
     </message>
     <message>
+      <source>Signs of the dope sheet</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>What the signs mean, and what the mouse does</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>Dope sheet</source>
       <translation>Zeitübersicht</translation>
     </message>
@@ -1596,8 +1604,120 @@
       <translation>Nichts mehr zurückzunehmen oder zu wiederholen.</translation>
     </message>
     <message>
+      <source>Click</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>goes to the frame and chooses the point</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Drag</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>paints the state that is chosen above the sheet</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Right click</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>offers states, runs, keys, filling and returning it</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Ctrl+wheel</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>zooms in time about the mouse</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Wheel, Shift+wheel</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>scrolls the rows, scrolls in time</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Middle button, Shift+drag</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>pulls rows and time along</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Double click</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>shows the whole clip</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>not annotated</source>
       <translation>nicht annotiert</translation>
+    </message>
+    <message>
+      <source>paler: the tracker was less sure</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>suspicious, the redder the more</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>marked as uncertain</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>key: a person placed the point</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>between two keys: filled by a tracker</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>filled by a straight line</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>held where the first key is</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>run marked by [ and ]</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>frames that are ready to be shown</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Zoom to this segment</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Segment filled by</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Go to frame {n}</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Frames {a} to {b} are</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Frame {n} is</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>between the keys {a} and {b}, filled by: {mode}</source>
@@ -4536,6 +4656,10 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>All frames; a double click there does it too.</source>
       <translation>Alle Bilder; dort tut es auch ein Doppelklick.</translation>
+    </message>
+    <message>
+      <source>What they mean, and what the mouse does there.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>View follows the point</source>
