@@ -26,6 +26,7 @@ from genmojo_studio.annotate.dope_sheet import DopeSheet
 from genmojo_studio.annotate.graphs import Graphs
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.sheet_legend import SheetLegend
+from genmojo_studio.annotate.sheet_painter import LABEL
 from genmojo_studio.annotate.time_view import TimeView
 from genmojo_studio.annotate.timeline import Timeline
 from genmojo_studio.icons import icon
@@ -105,7 +106,7 @@ class PlayPanel(QWidget):
         self.player = Player(session, self)
         self.view = TimeView(session, self)
         self.sheet, self.graphs = DopeSheet(session, self.view), Graphs(session, self.view)
-        self.timeline = Timeline(session, self.view)
+        self.timeline = Timeline(session, self.view, self._across)
         self.brush = QComboBox()
         self.legend: SheetLegend | None = None
         self.tabs, self.stack = QTabBar(), QStackedWidget()
@@ -128,6 +129,12 @@ class PlayPanel(QWidget):
         self.destroyed.connect(session.state.subscribe(self._dress, "theme"))
         self._dress()
         self._show_frame(session.frame)
+
+    def _across(self) -> tuple[float, float]:
+        """Where the cells of the dope sheet begin and how wide they are; the timeline stands below them."""
+        bar, rim = self.sheet.verticalScrollBar(), self.sheet.frameWidth()
+        aside = bar.sizeHint().width() if bar.maximum() else 0
+        return LABEL + rim, max(self.stack.width() - LABEL - 2 * rim - aside - 6, 1)
 
     def brush_state(self) -> int:
         """The state that a drag over the dope sheet paints."""

@@ -47,7 +47,8 @@ class SheetMenu:
         s, menu = self._s, QMenu(self._w.play.sheet)
         run = marked(s) if s.run_track == track else None
         inside = run is not None and run[0] <= frame <= run[1]
-        menu.addSection("".join(label(s, track)))
+        menu.addAction("".join(label(s, track))).setEnabled(False)
+        menu.addSeparator()
         menu.addAction(tr("Go to frame {n}").format(n=frame), partial(self._go, track, frame))
         for name in ("point.run_start", "point.run_end"):
             self._add(menu, name, track, frame)

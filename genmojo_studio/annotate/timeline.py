@@ -6,6 +6,8 @@ show: drag it to scroll, its ends to zoom. A double click shows the whole clip.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QHelpEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QWheelEvent
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
@@ -21,14 +23,24 @@ _NOTCH = 120.0
 
 
 class Timeline(QWidget):
-    """Two thin lanes over the width of the dope sheet's cells."""
+    """Two thin lanes over the width of the dope sheet's cells.
+
+    Args:
+        across: left end and width of those cells, pixels of a widget as wide as this one.
+    """
 
     began = Signal()
     seek = Signal(int)
 
-    def __init__(self, session: Session, view: TimeView, parent: QWidget | None = None) -> None:
+    def __init__(
+        self,
+        session: Session,
+        view: TimeView,
+        across: Callable[[], tuple[float, float]],
+        parent: QWidget | None = None,
+    ) -> None:
         super().__init__(parent)
-        self._session, self._view = session, view
+        self._session, self._view, self._across = session, view, across
         self._drag: tuple[str, float, float, float] | None = None  # what is held, frame, first and end when it began
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setMouseTracking(True)
@@ -42,7 +54,7 @@ class Timeline(QWidget):
 
     def axis(self) -> Axis:
         """Where the clip's frames are."""
-        return Axis(0.0, float(self._view.frames), LABEL, max(self.width() - LABEL - 6, 1))
+        return Axis(0.0, float(self._view.frames), *self._across())
 
     def bar(self) -> QRectF:
         """The part on show."""

@@ -290,7 +290,7 @@ class AnnotateWorkspace(QMainWindow):
         wide, high = max(self.width(), 1000), max(self.height(), 600)
         sizes = {"buttons": 194, "information": int(min(max(0.24 * wide, 310), 430))}
         self.resizeDocks([self.docks[n] for n in sizes], list(sizes.values()), Qt.Orientation.Horizontal)
-        share = 0.24 if self._low else 0.3
+        share = 0.27 if self._low else 0.3
         self.resizeDocks([self.docks["play"]], [int(share * high)], Qt.Orientation.Vertical)
 
     def use_tool(self, tool: Tool | None) -> None:

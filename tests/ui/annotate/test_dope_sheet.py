@@ -96,6 +96,9 @@ def test_the_frame_on_show_stays_in_view_while_stepping_and_playing(refining):
 def test_timeline_and_graphs_show_the_same_frames_as_the_sheet(refining, qtbot):
     play, session = refining.play, refining.session
     timeline, view = play.timeline, play.view
+    for frame in (0, 20):  # the whole clip stands below its cells
+        here = timeline.mapFromGlobal(play.sheet.viewport().mapToGlobal(QPoint(round(play.sheet.x_of(frame)), 0)))
+        assert abs(here.x() - timeline.axis().x_of(frame)) <= 1.5
     view.show(6.0, 12.0)
     bar = timeline.bar()
     assert bar.left() == pytest.approx(timeline.axis().x_of(6.0)) and bar.right() == pytest.approx(
@@ -103,7 +106,7 @@ def test_timeline_and_graphs_show_the_same_frames_as_the_sheet(refining, qtbot):
     )
     drag(timeline, bar.center().toPoint(), bar.center().toPoint() + QPoint(80, 0))
     assert view.first > 6.5 and view.span == pytest.approx(6.0)
-    drag(timeline, QPoint(round(timeline.bar().right()), 15), QPoint(timeline.width() - 2, 15))
+    drag(timeline, QPoint(round(timeline.bar().right()), 15), QPoint(timeline.width() - 1, 15))
     assert view.end == view.frames
     QTest.mouseClick(timeline, LEFT, PLAIN, QPoint(round(timeline.axis().x_of(3.5)), 4))
     assert session.frame == 3 and view.first <= 3, "a click in the timeline goes there, and the view follows"
