@@ -929,11 +929,11 @@
     </message>
     <message>
       <source>Signs of the dope sheet</source>
-      <translation type="unfinished" />
+      <translation>Zeichen der Zeitübersicht</translation>
     </message>
     <message>
       <source>What the signs mean, and what the mouse does</source>
-      <translation type="unfinished" />
+      <translation>Was die Zeichen bedeuten, und was die Maus tut</translation>
     </message>
     <message>
       <source>Dope sheet</source>
@@ -1605,59 +1605,59 @@
     </message>
     <message>
       <source>Click</source>
-      <translation type="unfinished" />
+      <translation>Klick</translation>
     </message>
     <message>
       <source>goes to the frame and chooses the point</source>
-      <translation type="unfinished" />
+      <translation>geht zum Bild und wählt den Punkt</translation>
     </message>
     <message>
       <source>Drag</source>
-      <translation type="unfinished" />
+      <translation>Ziehen</translation>
     </message>
     <message>
       <source>paints the state that is chosen above the sheet</source>
-      <translation type="unfinished" />
+      <translation>malt den Zustand, der darüber gewählt ist</translation>
     </message>
     <message>
       <source>Right click</source>
-      <translation type="unfinished" />
+      <translation>Rechtsklick</translation>
     </message>
     <message>
       <source>offers states, runs, keys, filling and returning it</source>
-      <translation type="unfinished" />
+      <translation>bietet Zustände, Strecken, Schlüssel, Füllung und Zurückgeben</translation>
     </message>
     <message>
       <source>Ctrl+wheel</source>
-      <translation type="unfinished" />
+      <translation>Strg+Rad</translation>
     </message>
     <message>
       <source>zooms in time about the mouse</source>
-      <translation type="unfinished" />
+      <translation>zoomt die Zeit um die Maus</translation>
     </message>
     <message>
       <source>Wheel, Shift+wheel</source>
-      <translation type="unfinished" />
+      <translation>Rad, Umschalt+Rad</translation>
     </message>
     <message>
       <source>scrolls the rows, scrolls in time</source>
-      <translation type="unfinished" />
+      <translation>verschiebt die Zeilen, verschiebt die Zeit</translation>
     </message>
     <message>
       <source>Middle button, Shift+drag</source>
-      <translation type="unfinished" />
+      <translation>Mittlere Taste, Umschalt+Ziehen</translation>
     </message>
     <message>
       <source>pulls rows and time along</source>
-      <translation type="unfinished" />
+      <translation>zieht Zeilen und Zeit mit</translation>
     </message>
     <message>
       <source>Double click</source>
-      <translation type="unfinished" />
+      <translation>Doppelklick</translation>
     </message>
     <message>
       <source>shows the whole clip</source>
-      <translation type="unfinished" />
+      <translation>zeigt den ganzen Clip</translation>
     </message>
     <message>
       <source>not annotated</source>
@@ -1665,59 +1665,59 @@
     </message>
     <message>
       <source>paler: the tracker was less sure</source>
-      <translation type="unfinished" />
+      <translation>blasser: der Tracker war weniger sicher</translation>
     </message>
     <message>
       <source>suspicious, the redder the more</source>
-      <translation type="unfinished" />
+      <translation>verdächtig, je röter desto mehr</translation>
     </message>
     <message>
       <source>marked as uncertain</source>
-      <translation type="unfinished" />
+      <translation>als unsicher markiert</translation>
     </message>
     <message>
       <source>key: a person placed the point</source>
-      <translation type="unfinished" />
+      <translation>Schlüssel: ein Mensch hat den Punkt gesetzt</translation>
     </message>
     <message>
       <source>between two keys: filled by a tracker</source>
-      <translation type="unfinished" />
+      <translation>zwischen zwei Schlüsseln: von einem Tracker gefüllt</translation>
     </message>
     <message>
       <source>filled by a straight line</source>
-      <translation type="unfinished" />
+      <translation>durch eine gerade Linie gefüllt</translation>
     </message>
     <message>
       <source>held where the first key is</source>
-      <translation type="unfinished" />
+      <translation>gehalten, wo der erste Schlüssel ist</translation>
     </message>
     <message>
       <source>run marked by [ and ]</source>
-      <translation type="unfinished" />
+      <translation>mit [ und ] markierte Strecke</translation>
     </message>
     <message>
       <source>frames that are ready to be shown</source>
-      <translation type="unfinished" />
+      <translation>Bilder, die bereitstehen</translation>
     </message>
     <message>
       <source>Zoom to this segment</source>
-      <translation type="unfinished" />
+      <translation>Auf diesen Abschnitt zoomen</translation>
     </message>
     <message>
       <source>Segment filled by</source>
-      <translation type="unfinished" />
+      <translation>Abschnitt gefüllt durch</translation>
     </message>
     <message>
       <source>Go to frame {n}</source>
-      <translation type="unfinished" />
+      <translation>Zu Bild {n}</translation>
     </message>
     <message>
       <source>Frames {a} to {b} are</source>
-      <translation type="unfinished" />
+      <translation>Bilder {a} bis {b} sind</translation>
     </message>
     <message>
       <source>Frame {n} is</source>
-      <translation type="unfinished" />
+      <translation>Bild {n} ist</translation>
     </message>
     <message>
       <source>between the keys {a} and {b}, filled by: {mode}</source>
@@ -4659,7 +4659,7 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     </message>
     <message>
       <source>What they mean, and what the mouse does there.</source>
-      <translation type="unfinished" />
+      <translation>Was sie bedeuten, und was die Maus dort tut.</translation>
     </message>
     <message>
       <source>View follows the point</source>
