@@ -11,6 +11,8 @@ from dataclasses import dataclass, field
 
 PRESETS = ("Studio", "CVAT", "labelme", "Blender")
 EVERYWHERE = ""
+_MODIFIERS = "ctrl alt shift meta num"
+_NAMES = {"escape": "esc", "delete": "del", "backtab": "tab", "pageup": "pgup", "pagedown": "pgdown", "insert": "ins"}
 
 
 @dataclass(frozen=True)
@@ -28,6 +30,7 @@ class Action:
         checkable: shown with a tick that `ActionTable.bind(checked=...)` tells.
         separator: a line stands above it in its menu.
         repeats: holding the key repeats it (frame steps).
+        held: acts until its key comes up; such a key is a single one, no sequence.
     """
 
     id: str
@@ -40,6 +43,7 @@ class Action:
     checkable: bool = False
     separator: bool = False
     repeats: bool = False
+    held: bool = False
 
 
 @dataclass(frozen=True)
@@ -146,15 +150,21 @@ class ActionTable:
         self.changed()
 
     def conflicts(self) -> list[Conflict]:
-        """Keys that two actions of one workspace (or one and one that works everywhere) both answer to."""
+        """Keys that two actions of one workspace (or one and one that works everywhere) both answer to.
+
+        Also those that begin a sequence of another's, which could not be reached.
+        """
         found = []
-        by_key: dict[str, list[Action]] = {}
+        by_start: dict[str, list[tuple[str, Action]]] = {}
         for action in self._actions.values():
             for key in dict.fromkeys(normal_key(key) for key in self.keys(action.id)):
-                for other in by_key.get(key, []):
-                    if EVERYWHERE in (action.workspace, other.workspace) or action.workspace == other.workspace:
+                same_start = by_start.setdefault(key.split(", ")[0], [])
+                for taken, other in same_start:
+                    if overlap(key, taken) and (
+                        EVERYWHERE in (action.workspace, other.workspace) or action.workspace == other.workspace
+                    ):
                         found.append(Conflict(key, other.id, action.id))
-                by_key.setdefault(key, []).append(action)
+                same_start.append((key, action))
         return found
 
     def available(self, workspace: str) -> list[Action]:
@@ -186,13 +196,18 @@ def normal_key(key: str) -> str:
     return ", ".join(_normal_chord(chord.strip()) for chord in key.split(", "))
 
 
+def overlap(one: str, other: str) -> bool:
+    """Whether two keys cannot both be told apart: they are the same, or one begins the other."""
+    first, second = normal_key(one).split(", "), normal_key(other).split(", ")
+    return all(a == b for a, b in zip(first, second, strict=False))
+
+
 def _normal_chord(chord: str) -> str:
     parts = chord.split("+")
     if chord.endswith("+"):  # the plus key itself: "+" or "Ctrl++"
         parts = [*[part for part in parts if part], "+"]
-    order = ["ctrl", "alt", "shift", "meta"]
-    modifiers = sorted((part.lower() for part in parts[:-1]), key=lambda part: order.index(part))
-    last = parts[-1]
+    modifiers = sorted((part.lower() for part in parts[:-1]), key=lambda part: (_MODIFIERS.find(part), part))
+    last = _NAMES.get(parts[-1].lower(), parts[-1])
     return "+".join([*(part.capitalize() for part in modifiers), last.upper() if len(last) == 1 else last.capitalize()])
 
 

@@ -19,12 +19,13 @@ from genmojo_studio.actions import ActionTable
 from genmojo_studio.assembly import Assembly
 from genmojo_studio.background import Tasks
 from genmojo_studio.header import Header
+from genmojo_studio.key_sheet import KeySheet
 from genmojo_studio.menus import Menus
 from genmojo_studio.palette import Palette
 from genmojo_studio.panels import Panels
 from genmojo_studio.selftest_dialog import SelftestDialog
 from genmojo_studio.settings import Settings, data_folder
-from genmojo_studio.shortcuts import KeyEditor, KeySheet
+from genmojo_studio.shortcuts import KeyEditor
 from genmojo_studio.state import AppState
 from genmojo_studio.translate import tr
 from genmojo_studio.watchdog import Watchdog
@@ -279,7 +280,7 @@ class MainWindow(QMainWindow):
         bind("window.panels", self._switch_panels, lambda: bool(self.workspace), self._panels_hidden)
         bind("window.reset", self._reset_layout, lambda: bool(self.workspace))
         bind("help.palette", self._show_palette)
-        bind("help.keys", lambda: self._open_dialog(KeySheet(self.table, self.workspace, self), beside=True))
+        bind("help.keys", self._show_keys)
         bind("help.selftest", lambda: self._open_dialog(SelftestDialog(self)))
         bind("help.crash", self._show_crashes, lambda: bool(notify.crash_reports(data_folder() / "crashes")))
         bind("help.about", lambda: self._open_dialog(About(self)))
@@ -318,6 +319,14 @@ class MainWindow(QMainWindow):
         palette.move(corner.x() + (self.width() - palette.width()) // 2, corner.y() + 70)
         palette.accepted.connect(lambda: self.table.trigger(palette.chosen))
         self._open_dialog(palette)
+
+    def _show_keys(self) -> None:
+        """The sheet of keys, of the step that a person is in."""
+        for old in self.findChildren(KeySheet):
+            old.close()
+        shown = self.workspaces.get(self.workspace)
+        place = getattr(shown, "step", None) if getattr(shown, "session", None) is not None else None
+        self._open_dialog(KeySheet(self.table, self.workspace, self, place), beside=True)
 
     def _open_dialog(self, dialog: QDialog, *, beside: bool = False) -> None:
         """Shows a dialog and goes on; `beside` leaves the window usable meanwhile."""

@@ -127,7 +127,9 @@ class PlayPanel(QWidget):
         session.frame_changed.connect(self._show_frame)
         self.player.toggled.connect(self._show_playing)
         self.destroyed.connect(session.state.subscribe(self._dress, "theme"))
+        self.destroyed.connect(actions.subscribe(self._name_keys))
         self._dress()
+        self._name_keys()
         self._show_frame(session.frame)
 
     def _across(self) -> tuple[float, float]:
@@ -149,7 +151,6 @@ class PlayPanel(QWidget):
         for name, _ in _TRANSPORT:
             action = self._actions[f"annotate.{name}"]
             button = QToolButton()
-            button.setToolTip(f"{tr(action.text)} ({', '.join(self._actions.keys(action.id))})")
             button.setAccessibleName(tr(action.text))
             button.setObjectName(action.id)
             button.setAutoRepeat(action.repeats)
@@ -216,6 +217,13 @@ class PlayPanel(QWidget):
 
     def _show_playing(self, _playing: bool) -> None:
         self._dress()
+
+    def _name_keys(self) -> None:
+        """The keys that do the same, as they are now."""
+        for name, button in self.buttons.items():
+            action = self._actions[f"annotate.{name}"]
+            keys = ", ".join(self._actions.keys(action.id))
+            button.setToolTip(f"{tr(action.text)} ({keys})" if keys else tr(action.text))
 
     def _dress(self) -> None:
         """Icons in the theme's colours."""

@@ -716,6 +716,210 @@
       <translation>die Mitte</translation>
     </message>
     <message>
+      <source>Mouse in the frame</source>
+      <translation>Maus im Bild</translation>
+    </message>
+    <message>
+      <source>Keys that are held</source>
+      <translation>Gehaltene Tasten</translation>
+    </message>
+    <message>
+      <source>Mouse in the dope sheet</source>
+      <translation>Maus im Dope Sheet</translation>
+    </message>
+    <message>
+      <source>Mouse in the graphs</source>
+      <translation>Maus in den Kurven</translation>
+    </message>
+    <message>
+      <source>Mouse in the strip</source>
+      <translation>Maus im Streifen</translation>
+    </message>
+    <message>
+      <source>Click</source>
+      <translation>Klick</translation>
+    </message>
+    <message>
+      <source>Places the active point here.</source>
+      <translation>Setzt den aktiven Punkt hierher.</translation>
+    </message>
+    <message>
+      <source>Click on a point</source>
+      <translation>Klick auf einen Punkt</translation>
+    </message>
+    <message>
+      <source>Makes that point the active one.</source>
+      <translation>Macht diesen Punkt zum aktiven.</translation>
+    </message>
+    <message>
+      <source>Drag</source>
+      <translation>Ziehen</translation>
+    </message>
+    <message>
+      <source>Moves the nearest point within 12 pixels of the screen.</source>
+      <translation>Bewegt den nächsten Punkt im Umkreis von 12 Bildschirmpixeln.</translation>
+    </message>
+    <message>
+      <source>Shift while dragging</source>
+      <translation>Umschalt beim Ziehen</translation>
+    </message>
+    <message>
+      <source>Moves it at an eighth of the speed.</source>
+      <translation>Bewegt ihn mit einem Achtel der Geschwindigkeit.</translation>
+    </message>
+    <message>
+      <source>Right click on a point</source>
+      <translation>Rechtsklick auf einen Punkt</translation>
+    </message>
+    <message>
+      <source>Occluded, or visible again.</source>
+      <translation>Verdeckt, oder wieder sichtbar.</translation>
+    </message>
+    <message>
+      <source>Drag with the tool Box</source>
+      <translation>Ziehen mit dem Werkzeug Rahmen</translation>
+    </message>
+    <message>
+      <source>A rectangle round the object.</source>
+      <translation>Ein Rechteck um das Objekt.</translation>
+    </message>
+    <message>
+      <source>Click or drag with On it, Not this</source>
+      <translation>Klicken oder Ziehen mit „Darauf“, „Das nicht“</translation>
+    </message>
+    <message>
+      <source>Marks what belongs to the object, or does not.</source>
+      <translation>Markiert, was zum Objekt gehört oder nicht.</translation>
+    </message>
+    <message>
+      <source>Wheel</source>
+      <translation>Rad</translation>
+    </message>
+    <message>
+      <source>Zooms at the mouse; the loupe while it is open.</source>
+      <translation>Vergrößert an der Maus; die Lupe, solange sie offen ist.</translation>
+    </message>
+    <message>
+      <source>Drag with the middle button, or where no point is</source>
+      <translation>Ziehen mit der mittleren Taste, oder wo kein Punkt ist</translation>
+    </message>
+    <message>
+      <source>Moves the picture.</source>
+      <translation>Verschiebt das Bild.</translation>
+    </message>
+    <message>
+      <source>Tab, Shift+Tab</source>
+      <translation>Tab, Umschalt+Tab</translation>
+    </message>
+    <message>
+      <source>Next point, point before.</source>
+      <translation>Nächster Punkt, voriger Punkt.</translation>
+    </message>
+    <message>
+      <source>Hold {view.loupe}</source>
+      <translation>{view.loupe} halten</translation>
+    </message>
+    <message>
+      <source>Opens the loupe beside the mouse.</source>
+      <translation>Öffnet die Lupe neben der Maus.</translation>
+    </message>
+    <message>
+      <source>Hold {view.hide}</source>
+      <translation>{view.hide} halten</translation>
+    </message>
+    <message>
+      <source>Hides all that is drawn over the frame.</source>
+      <translation>Blendet alles aus, was über das Bild gezeichnet ist.</translation>
+    </message>
+    <message>
+      <source>Hold {point.occluded} and step</source>
+      <translation>{point.occluded} halten und weitergehen</translation>
+    </message>
+    <message>
+      <source>Paints occluded over the frames gone through.</source>
+      <translation>Malt „verdeckt“ über die durchlaufenen Bilder.</translation>
+    </message>
+    <message>
+      <source>Hold {point.outside} and step</source>
+      <translation>{point.outside} halten und weitergehen</translation>
+    </message>
+    <message>
+      <source>Paints out of view.</source>
+      <translation>Malt „außerhalb“.</translation>
+    </message>
+    <message>
+      <source>Hold {point.visible} and step</source>
+      <translation>{point.visible} halten und weitergehen</translation>
+    </message>
+    <message>
+      <source>Paints visible.</source>
+      <translation>Malt „sichtbar“.</translation>
+    </message>
+    <message>
+      <source>Hold {point.nothing} and step</source>
+      <translation>{point.nothing} halten und weitergehen</translation>
+    </message>
+    <message>
+      <source>Forgets the places gone through.</source>
+      <translation>Vergisst die durchlaufenen Stellen.</translation>
+    </message>
+    <message>
+      <source>Goes to that frame and makes that point the active one.</source>
+      <translation>Geht zu diesem Bild und macht diesen Punkt zum aktiven.</translation>
+    </message>
+    <message>
+      <source>Drag over a row</source>
+      <translation>Über eine Zeile ziehen</translation>
+    </message>
+    <message>
+      <source>Paints the state that is chosen above it.</source>
+      <translation>Malt den Zustand, der darüber gewählt ist.</translation>
+    </message>
+    <message>
+      <source>Drag on the ruler</source>
+      <translation>Auf dem Lineal ziehen</translation>
+    </message>
+    <message>
+      <source>Goes through the frames.</source>
+      <translation>Geht durch die Bilder.</translation>
+    </message>
+    <message>
+      <source>Moves the rows.</source>
+      <translation>Verschiebt die Zeilen.</translation>
+    </message>
+    <message>
+      <source>Goes to that frame.</source>
+      <translation>Geht zu diesem Bild.</translation>
+    </message>
+    <message>
+      <source>Drag a diamond of x or y</source>
+      <translation>Eine Raute von x oder y ziehen</translation>
+    </message>
+    <message>
+      <source>Moves that key.</source>
+      <translation>Verschiebt diesen Schlüssel.</translation>
+    </message>
+    <message>
+      <source>Drag, or wheel</source>
+      <translation>Ziehen, oder Rad</translation>
+    </message>
+    <message>
+      <source>Moves and zooms the curve; a double click shows all of it.</source>
+      <translation>Verschiebt und vergrößert die Kurve; ein Doppelklick zeigt sie ganz.</translation>
+    </message>
+    <message>
+      <source>Goes to the frame of that patch.</source>
+      <translation>Geht zum Bild dieses Ausschnitts.</translation>
+    </message>
+    <message>
+      <source>In this step: {n} {title}</source>
+      <translation>In diesem Schritt: {n} {title}</translation>
+    </message>
+    <message>
+      <source>(no key)</source>
+      <translation>(keine Taste)</translation>
+    </message>
+    <message>
       <source>too small</source>
       <translation>zu klein</translation>
     </message>
@@ -1604,16 +1808,8 @@
       <translation>Nichts mehr zurückzunehmen oder zu wiederholen.</translation>
     </message>
     <message>
-      <source>Click</source>
-      <translation>Klick</translation>
-    </message>
-    <message>
       <source>goes to the frame and chooses the point</source>
       <translation>geht zum Bild und wählt den Punkt</translation>
-    </message>
-    <message>
-      <source>Drag</source>
-      <translation>Ziehen</translation>
     </message>
     <message>
       <source>paints the state that is chosen above the sheet</source>
@@ -2412,6 +2608,70 @@
       <translation>Optimieren, Szenen ansehen und vergleichen (Strg+2)</translation>
     </message>
     <message>
+      <source>Other</source>
+      <translation>Weitere</translation>
+    </message>
+    <message>
+      <source>goes to the next point or field</source>
+      <translation>geht zum nächsten Punkt oder Feld</translation>
+    </message>
+    <message>
+      <source>goes to the point or field before</source>
+      <translation>geht zum vorigen Punkt oder Feld</translation>
+    </message>
+    <message>
+      <source>closes dialogs and puts tools away</source>
+      <translation>schließt Dialoge und legt Werkzeuge weg</translation>
+    </message>
+    <message>
+      <source>closes the window</source>
+      <translation>schließt das Fenster</translation>
+    </message>
+    <message>
+      <source>{key} begins with {taken}, which belongs to “{other}”.</source>
+      <translation>{key} beginnt mit {taken}, das zu „{other}“ gehört.</translation>
+    </message>
+    <message>
+      <source>{key} {does} everywhere and cannot be given away.</source>
+      <translation>{key} {does}, und zwar überall, und kann nicht vergeben werden.</translation>
+    </message>
+    <message>
+      <source>“{action}” acts as long as its key is held: it takes a single key, no sequence.</source>
+      <translation>„{action}“ wirkt, solange die Taste gehalten wird: möglich ist eine einzelne Taste, keine Folge.</translation>
+    </message>
+    <message>
+      <source>{key} belongs to “{other}”.</source>
+      <translation>{key} gehört zu „{other}“.</translation>
+    </message>
+    <message>
+      <source>{key} begins {taken} of “{other}”, which could not be reached any more.</source>
+      <translation>Mit {key} beginnt {taken} von „{other}“, das dann nicht mehr erreichbar wäre.</translation>
+    </message>
+    <message>
+      <source>Mouse and keys</source>
+      <translation>Maus und Tasten</translation>
+    </message>
+    <message>
+      <source>This step only</source>
+      <translation>Nur dieser Schritt</translation>
+    </message>
+    <message>
+      <source>Search</source>
+      <translation>Suchen</translation>
+    </message>
+    <message>
+      <source>Command</source>
+      <translation>Befehl</translation>
+    </message>
+    <message>
+      <source>Keys</source>
+      <translation>Tasten</translation>
+    </message>
+    <message>
+      <source>What it does</source>
+      <translation>Was er tut</translation>
+    </message>
+    <message>
       <source>This is a fault of ours, not of your data. Your annotations are on disk. The details help us to mend it.</source>
       <translation>Das ist ein Fehler von uns, nicht Ihrer Daten. Ihre Annotationen sind gespeichert. Die Einzelheiten helfen uns, ihn zu beheben.</translation>
     </message>
@@ -2472,10 +2732,6 @@
       <translation>{cases} Fälle, {failed} gebrochen, {seconds:.0f} s.</translation>
     </message>
     <message>
-      <source>All shortcuts</source>
-      <translation>Alle Tasten</translation>
-    </message>
-    <message>
       <source>Shortcuts and settings</source>
       <translation>Tasten und Einstellungen</translation>
     </message>
@@ -2484,32 +2740,36 @@
       <translation>Die Sprache wechselt beim nächsten Start der App.</translation>
     </message>
     <message>
-      <source>Set</source>
-      <translation>Setzen</translation>
+      <source>Keys of the command</source>
+      <translation>Tasten des Befehls</translation>
+    </message>
+    <message>
+      <source>Take it over</source>
+      <translation>Übernehmen</translation>
+    </message>
+    <message>
+      <source>Import shortcuts</source>
+      <translation>Tastenkürzel importieren</translation>
+    </message>
+    <message>
+      <source>Export shortcuts</source>
+      <translation>Tastenkürzel exportieren</translation>
+    </message>
+    <message>
+      <source>Give mine up</source>
+      <translation>Meine aufgeben</translation>
+    </message>
+    <message>
+      <source>Replace the marked key</source>
+      <translation>Markierte Taste ersetzen</translation>
+    </message>
+    <message>
+      <source>Remove</source>
+      <translation>Entfernen</translation>
     </message>
     <message>
       <source>As delivered</source>
       <translation>Wie geliefert</translation>
-    </message>
-    <message>
-      <source>Other</source>
-      <translation>Weitere</translation>
-    </message>
-    <message>
-      <source>Search</source>
-      <translation>Suchen</translation>
-    </message>
-    <message>
-      <source>Command</source>
-      <translation>Befehl</translation>
-    </message>
-    <message>
-      <source>Keys</source>
-      <translation>Tasten</translation>
-    </message>
-    <message>
-      <source>What it does</source>
-      <translation>Was er tut</translation>
     </message>
     <message>
       <source>Keys as in</source>
@@ -2524,12 +2784,36 @@
       <translation>Neue Taste</translation>
     </message>
     <message>
+      <source>Mark a command first.</source>
+      <translation>Zuerst einen Befehl markieren.</translation>
+    </message>
+    <message>
+      <source>Press the new key in the field first.</source>
+      <translation>Zuerst im Feld die neue Taste drücken.</translation>
+    </message>
+    <message>
       <source>{key} is used by “{first}” and “{second}”.</source>
       <translation>{key} gehört schon zu „{first}“ und „{second}“.</translation>
     </message>
     <message>
       <source>As the system</source>
       <translation>Wie das System</translation>
+    </message>
+    <message>
+      <source>The command has this key already.</source>
+      <translation>Der Befehl hat diese Taste schon.</translation>
+    </message>
+    <message>
+      <source>{n} commands of the file are not known here.</source>
+      <translation>{n} Befehle der Datei sind hier nicht bekannt.</translation>
+    </message>
+    <message>
+      <source>Keys of your own clash with {preset}: {names}.</source>
+      <translation>Eigene Tasten vertragen sich nicht mit {preset}: {names}.</translation>
+    </message>
+    <message>
+      <source>Taken from {name}.</source>
+      <translation>Aus {name} übernommen.</translation>
     </message>
     <message>
       <source>Preparing the drawing kernels, once on this computer …</source>
@@ -2994,6 +3278,10 @@
     <message>
       <source>A number of the run; a change takes effect at the next step</source>
       <translation>Eine Zahl des Laufs; eine Änderung gilt ab dem nächsten Schritt</translation>
+    </message>
+    <message>
+      <source>Set</source>
+      <translation>Setzen</translation>
     </message>
     <message>
       <source>Camera path</source>
@@ -3722,6 +4010,10 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Hilfe</translation>
     </message>
     <message>
+      <source>All shortcuts</source>
+      <translation>Alle Tasten</translation>
+    </message>
+    <message>
       <source>Shows the keys that work here.</source>
       <translation>Zeigt die Tasten, die hier gelten.</translation>
     </message>
@@ -4204,10 +4496,6 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Draw a box</source>
       <translation>Rechteck zeichnen</translation>
-    </message>
-    <message>
-      <source>A rectangle round the object.</source>
-      <translation>Ein Rechteck um das Objekt.</translation>
     </message>
     <message>
       <source>Draw on the object</source>
@@ -7760,6 +8048,38 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>is no export this program knows</source>
       <translation>ist kein Export, den dieses Programm kennt</translation>
+    </message>
+    <message>
+      <source>is no file of shortcuts</source>
+      <translation>ist keine Datei mit Tastenkürzeln</translation>
+    </message>
+    <message>
+      <source>choose one that was exported here</source>
+      <translation>wähle eine, die hier exportiert wurde</translation>
+    </message>
+    <message>
+      <source>was written by a newer program</source>
+      <translation>wurde von einem neueren Programm geschrieben</translation>
+    </message>
+    <message>
+      <source>export it with this version</source>
+      <translation>exportiere sie mit dieser Version</translation>
+    </message>
+    <message>
+      <source>gives {id} a key that there is not</source>
+      <translation>gibt {id} eine Taste, die es nicht gibt</translation>
+    </message>
+    <message>
+      <source>put it right in the file</source>
+      <translation>berichtige es in der Datei</translation>
+    </message>
+    <message>
+      <source>cannot be read ({error})</source>
+      <translation>kann nicht gelesen werden ({error})</translation>
+    </message>
+    <message>
+      <source>gives {key} to {id}, which clashes with {other}</source>
+      <translation>gibt {key} an {id}, was sich mit {other} nicht verträgt</translation>
     </message>
     <message>
       <source>'{name}' is no kind of file that the app opens</source>

@@ -14,8 +14,9 @@ from PySide6.QtWidgets import QMessageBox
 from genmojo_core.errors import GenmojoError
 from genmojo_studio import notify
 from genmojo_studio.about import About
+from genmojo_studio.key_sheet import KeySheet
 from genmojo_studio.palette import Palette
-from genmojo_studio.shortcuts import KeyEditor, KeySheet
+from genmojo_studio.shortcuts import KeyEditor
 
 _ROOT = Path(__file__).resolve().parents[2]
 
@@ -221,10 +222,10 @@ def test_a_fault_is_told_without_holding_anything_up(qapp, qtbot, window):
 def test_a_changed_key_works_and_its_conflict_is_named(window):
     editor = KeyEditor(window.table, window.settings, window)
     window.table.set_keys("run.start", ("F11",))
-    editor._refill()
+    editor.say("", bad=False)
     assert "F11" in editor.notice.text()
     window.table.set_keys("run.start", None)
-    editor._refill()
+    editor.say("", bad=False)
     assert editor.notice.text() == ""
 
 
