@@ -11,18 +11,21 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.optimise.motion import ObjectMotion, improved_depth
 from genmojo_core.optimise.poses import project
 from genmojo_core.tracks.model import VISIBLE, PointTracks
-from genmojo_core.tracks.supervision import sure
+from genmojo_core.tracks.supervision import hidden_by_people, sure
 
 _REACH = 1  # held px around a point in which its depth may be read
 _SHARE = 0.4  # what annotated tracks count together, in what the object's own hundreds of tracks do, if all contradict
 _LET_PASS = 3.0  # px at 1080 lines that a person accepts as right
 _HELD = 0.5  # held px, which matches are not surer of
+_HIDDEN = 0.3  # what a place counts that a person gave behind something, of one that is seen
+_HIDDEN_PASS = 2.0  # times as far as a seen place may such a one be off before it contradicts
 
 
 def with_annotated(clip: Clip, motions: Sequence[ObjectMotion]) -> list[ObjectMotion]:
-    """The motions with the clip's given tracks added to their own: sure where seen, silent elsewhere.
+    """The motions with the clip's given tracks added to their own: sure where seen, silent where nobody knows.
 
-    Where their flags tell what a person gave and what a tracker guessed, guesses and uncertain places are silent too.
+    Where a person placed a hidden point, that place holds in the picture as those of seen points do, for less: it says
+    where the surface point is behind what hides it, not what shows there. Where their flags tell what a person gave and what a tracker guessed, guesses and uncertain places are silent too.
 
     They are few beside the motion's own tracks, so where the motion is off by more than a person lets pass, each counts
     for as many as makes all of an object's together heard; elsewhere people only say that it is right.
@@ -47,22 +50,24 @@ def _added(clip: Clip, tracks: PointTracks, motion: ObjectMotion, owner: int) ->
             points.append(place)
     if not rows:
         return motion
-    seen = tracks.state[rows] == VISIBLE
-    xy = np.where(seen[..., None], tracks.xy[rows], 0.0)
-    loud = max(1.0, _SHARE * float(motion.track_conf.sum()) / max(int(seen.sum()), 1))
-    missed = _missed(clip, motion, np.stack(points), xy) > max(_LET_PASS * clip.size[1] / 1080, _HELD)
+    seen, hidden = tracks.state[rows] == VISIBLE, hidden_by_people(tracks)[rows]
+    went = _went(clip, motion, np.stack(points))
+    xy = np.where((seen | hidden)[..., None], tracks.xy[rows], went)
+    weight = seen + _HIDDEN * hidden
+    loud = max(1.0, _SHARE * float(motion.track_conf.sum()) / max(float(weight.sum()), 1.0))
+    passes = max(_LET_PASS * clip.size[1] / 1080, _HELD) * np.where(hidden, _HIDDEN_PASS, 1.0)
+    missed = np.linalg.norm(went - xy, axis=2) > passes
     return replace(
         motion, track_xyz=np.concatenate([motion.track_xyz, np.stack(points)]),
         track_xy=np.concatenate([motion.track_xy, xy]),
-        track_conf=np.concatenate([motion.track_conf, np.where(missed, loud, 1.0) * seen]),
+        track_conf=np.concatenate([motion.track_conf, np.where(missed, loud, 1.0) * weight]),
     )  # fmt: skip
 
 
-def _missed(clip: Clip, motion: ObjectMotion, places: np.ndarray, xy: np.ndarray) -> np.ndarray:  # (P, T) held px
-    """How far the motion brings points (P, 3) of the reference frame from where people saw them, xy (P, T, 2)."""
+def _went(clip: Clip, motion: ObjectMotion, places: np.ndarray) -> np.ndarray:  # (P, T, 2) held px
+    """Where the motion brings points (P, 3) of the reference frame."""
     cameras = clip.cameras.value
-    went = [project(cameras, t, motion.points_at(t, places)) for t in range(len(clip))]
-    return np.linalg.norm(np.stack(went, axis=1) - xy, axis=2)
+    return np.stack([project(cameras, t, motion.points_at(t, places)) for t in range(len(clip))], axis=1)
 
 
 def _in_space(clip: Clip, tracks: PointTracks, row: int, motion: ObjectMotion) -> np.ndarray | None:  # (3,)

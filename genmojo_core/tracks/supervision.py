@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from genmojo_core.tracks.annotation import CONFIRMED, KEY, UNCERTAIN, Annotation
-from genmojo_core.tracks.model import NONE, PointTracks
+from genmojo_core.tracks.model import NONE, OCCLUDED, PointTracks
 
 
 def said_by_people(annotation: Annotation) -> PointTracks | None:
@@ -25,3 +25,13 @@ def sure(tracks: PointTracks) -> PointTracks:
         return tracks
     known = ((tracks.flags & (KEY | CONFIRMED)) > 0) & ((tracks.flags & UNCERTAIN) == 0)
     return replace(tracks, state=np.where(known, tracks.state, NONE).astype(np.uint8))
+
+
+def hidden_by_people(tracks: PointTracks) -> np.ndarray:  # (N, T) bool
+    """Where a person placed a point that is hidden and was sure of it: a place in the picture behind something.
+
+    Places that were only accepted, and those of tracks without flags, are nobody's word.
+    """
+    if tracks.flags is None:
+        return np.zeros(tracks.state.shape, bool)
+    return (tracks.state == OCCLUDED) & ((tracks.flags & KEY) > 0) & ((tracks.flags & UNCERTAIN) == 0)
