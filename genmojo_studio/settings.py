@@ -21,6 +21,11 @@ class Settings:
         """A stored text."""
         return str(self._store.value(key, default))
 
+    def whole(self, key: str, default: int) -> int:
+        """A stored whole number; the default where none can be read."""
+        stored = _parsed(self.text(key, str(default)))
+        return stored if isinstance(stored, int) else default
+
     def put(self, key: str, value: str) -> None:
         """Stores a text."""
         self._store.setValue(key, value)

@@ -123,6 +123,7 @@ _TRACK = (
 _VIEW = (
     _action("view.fit", "Fit the frame", "F", "The whole frame.", cvat="Ctrl+F", labelme="Ctrl+F F", blender="Home F"),
     _action("view.one", "One to one", "0", "One pixel of the clip per pixel of the screen."),
+    _action("view.centre", "Bring the point into view", "Shift+F", "The middle of the view, wherever the point is."),
     _action("view.in", "Zoom in", "+ =", "About the middle of the frame."),
     _action("view.out", "Zoom out", "-", "About the middle of the frame."),
     _action(

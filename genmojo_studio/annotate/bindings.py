@@ -32,10 +32,11 @@ def bind(workspace: AnnotateWorkspace) -> None:
     hands = Hands(workspace)
     workspace.hands = hands
     for name, verb in hands.table().items():
-        workspace.table.bind(f"annotate.{name}", verb, hands.enabled(name), hands.checked(name))
+        workspace.table.bind(f"annotate.{name}", hands.guarded(name, verb), hands.enabled(name), hands.checked(name))
     held = workspace.held
     for name, state in verbs.STATES.items():
-        held.add(f"annotate.point.{name}", hands.painter(state), hands.tapper(state), hands.paint_end)
+        begin, tapped = hands.guarded(name, hands.painter(state)), hands.guarded(name, hands.tapper(state))
+        held.add(f"annotate.point.{name}", begin, tapped, hands.paint_end)
     held.add("annotate.view.loupe", hands.loupe_on, hands.loupe_toggle, hands.loupe_off)
     held.add("annotate.view.hide", hands.hide, hands.hide_toggle, hands.show)
     workspace.work.begin()
@@ -91,6 +92,9 @@ class Hands:
         w.canvas.toggled.connect(self.toggled)
         w.canvas.hovered.connect(self.hovered)
         w.canvas.cycled.connect(self.cycle)
+        w.canvas.set_reticle(w.settings.whole("reticle", w.canvas.reticle))
+        self._s.view = w.canvas.view
+        self._s.view_wanted.connect(w.canvas.set_view)
         w.play.sheet.painted.connect(self.painted)
         self.sheet_menu = SheetMenu(w, self._s, self._solved_after)
         w.play.graphs.moved.connect(self.knot_moved)
@@ -163,6 +167,7 @@ class Hands:
         return {
             "view.fit": w.canvas.fit,
             "view.one": w.canvas.one_to_one,
+            "view.centre": lambda: self.placing.seek(self._s.track),
             "view.in": lambda: w.canvas.zoom_step(1),
             "view.out": lambda: w.canvas.zoom_step(-1),
             "view.time_in": lambda: w.play.view.zoom(2),
@@ -175,8 +180,8 @@ class Hands:
             "view.masks": self._masks,
             "view.trails": self._trails,
             "view.strip": self._strip,
-            "view.reticle_larger": lambda: w.canvas.set_reticle(w.canvas.reticle + 4),
-            "view.reticle_smaller": lambda: w.canvas.set_reticle(w.canvas.reticle - 4),
+            "view.reticle_larger": lambda: self._reticle(4),
+            "view.reticle_smaller": lambda: self._reticle(-4),
             "edit.checkpoint": self.dialogs.checkpoint,
             "edit.history": self.dialogs.history,
             "file.new_clip": lambda: w.table.trigger("file.open_clip"),
@@ -194,6 +199,12 @@ class Hands:
             **{f"panel.{name}": partial(self._panel, name) for name in w.docks},
             **{f"step.{n + 1}": partial(w.show_step, n) for n in range(len(steps.STEPS))},
         }
+
+    def guarded(self, name: str, verb: Verb) -> Verb:
+        """The verb, which does nothing while a point is being dragged, unless it changes the view alone."""
+        if name.startswith(("view.", "panel.")) or name == "move.frame":
+            return verb
+        return lambda: self.placing.refuse() if self._s.holding else verb()
 
     def enabled(self, name: str) -> Callable[[], bool]:
         """When an action is possible."""
@@ -248,7 +259,7 @@ class Hands:
 
     def cycle(self, step: int) -> None:
         """The next or previous point over all objects."""
-        self.going.cycle(step)
+        self.guarded("point.next", lambda: self.going.cycle(step))()
 
     # ---- keys that are held
 
@@ -316,7 +327,10 @@ class Hands:
         self._s.said.emit(tr("Marked: frames {a} to {b}. A state or X applies to them.").format(a=first, b=last))
 
     def _back_to_frame(self) -> None:
-        """The keyboard to the frame; what was begun there is forgotten."""
+        """The keyboard to the frame; what was begun there is forgotten, a point being dragged alone first."""
+        if self._w.canvas.put_back():
+            self._s.said.emit(tr("The point is back where it was."))
+            return
         self._s.run = (None, None)
         self._s.settings_changed.emit()
         self._s.shown.emit()
@@ -350,6 +364,11 @@ class Hands:
     def _trails(self) -> None:
         self._s.trail = TRAILS[(TRAILS.index(self._s.trail) + 1) % len(TRAILS)]
         self._s.shown.emit()
+
+    def _reticle(self, more: int) -> None:
+        """A longer or shorter reticle, kept for the next time."""
+        self._w.canvas.set_reticle(self._w.canvas.reticle + more)
+        self._w.settings.put("reticle", str(self._w.canvas.reticle))
 
     def _strip(self) -> None:
         self._w.strip.setVisible(not self._w.strip.isVisible())

@@ -5,24 +5,23 @@ The canvas knows no annotation: it is given a frame and a `Picture`, and says in
 
 from __future__ import annotations
 
-import math
 from enum import Enum
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, Qt, QTimer, Signal
-from PySide6.QtGui import QColor, QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QResizeEvent, QWheelEvent
+from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
-from genmojo_studio.annotate import overlay
+from genmojo_core.tracks.model import NONE
+from genmojo_studio.annotate import overlay, rim
+from genmojo_studio.annotate.frame_image import FrameImage
+from genmojo_studio.annotate.hand import RETICLE, SLACK, Hold, draw_reticle, length
 from genmojo_studio.annotate.loupe import Loupe
-from genmojo_studio.annotate.mapping import Mapping, fitted
+from genmojo_studio.annotate.mapping import Mapping, View, fitted
 from genmojo_studio.annotate.overlay import Mark, Picture
-from genmojo_studio.annotate.patches import shrunk
 from genmojo_studio.translate import tr
 
 REACH = 12.0  # widget pixels within which a point is grabbed
-SLACK = 4.0  # a press that moves less is a click
-FINE = 0.125  # speed of a drag with Shift
 _SMOOTH_AFTER = 120  # ms without a new frame after which a shrunk frame is drawn without aliasing
 
 
@@ -40,6 +39,8 @@ class Canvas(QWidget):
 
     clicked = Signal(float, float)  # place the active point here
     picked = Signal(int)  # track under a click
+    sought = Signal(int)  # track whose arrow at the rim was clicked: it wants to be seen
+    held = Signal(bool)  # a point is under the pressed button, or no longer
     dragged = Signal(int, float, float)  # track, where it was let go
     toggled = Signal(int)  # right click on a track
     boxed = Signal(float, float, float, float)
@@ -63,13 +64,12 @@ class Canvas(QWidget):
         self.ghost: tuple[float, float] | None = None  # where snapping would put a click
         self.locked_on: tuple[float, float] | None = None  # raster place held in the middle of the view
         self._frame: np.ndarray | None = None
-        self._image: QImage | None = None
-        self._small: tuple[tuple[object, ...], np.ndarray, QImage] | None = None
+        self._image: FrameImage | None = None
         self._fit = True
         self._mouse = QPointF(-1, -1)
         self._press: QPointF | None = None
-        self._grab: Mark | None = None
-        self._drag_xy: tuple[float, float] | None = None
+        self._hold: Hold | None = None
+        self._arrow: Mark | None = None  # pressed on
         self._pan_from: Mapping | None = None
         self._stroke: list[QPointF] = []
         self._background = QColor("#101113")
@@ -84,11 +84,7 @@ class Canvas(QWidget):
         """Put a frame (H, W, 4) BGRA and its overlay on show together; None empties the panel."""
         resized = frame is not None and (self._frame is None or self._frame.shape != frame.shape)
         if frame is not self._frame:
-            self._frame, self._small = frame, None
-            height, width = frame.shape[:2] if frame is not None else (0, 0)
-            self._image = None
-            if frame is not None:
-                self._image = QImage(frame.data, width, height, 4 * width, QImage.Format.Format_RGB32)
+            self._frame, self._image = frame, None if frame is None else FrameImage(frame)
             self._calm.start()
         self.picture = picture
         if resized and self._fit:
@@ -103,8 +99,8 @@ class Canvas(QWidget):
         self.update()
 
     def set_reticle(self, size: int) -> None:
-        """Length of the reticle's arms in widget pixels, 6 to 60."""
-        self.reticle = min(max(size, 6), 60)
+        """Length of the reticle's arms in widget pixels, within RETICLE."""
+        self.reticle = min(max(size, RETICLE[0]), RETICLE[1])
         self.update()
 
     def set_overlay(self, on: bool) -> None:
@@ -124,6 +120,27 @@ class Canvas(QWidget):
         if self._frame is not None:
             self.mapping = fitted((self._frame.shape[1], self._frame.shape[0]), (self.width(), self.height()))
         self._zoom_changed()
+
+    def centre_on(self, x: float, y: float) -> None:
+        """Bring a raster position into the middle of the view, also one beyond the frame."""
+        self._fit = False
+        self.mapping = self.mapping.centred(x, y, (self.width(), self.height()))
+        self._zoom_changed()
+
+    def view(self) -> View:
+        """What part of the frame is on show: zoom and the raster position in the middle, None for the whole frame."""
+        if self._fit:
+            return None
+        x, y = self.mapping.to_image(self.width() / 2, self.height() / 2)
+        return round(self.mapping.zoom, 6), round(x, 2), round(y, 2)
+
+    def set_view(self, view: View) -> None:
+        """Show a part of the frame again that `view` told."""
+        if view is None:
+            self.fit()
+        elif view != self.view():
+            self.mapping = Mapping(view[0])
+            self.centre_on(view[1], view[2])
 
     def one_to_one(self) -> None:
         """One raster pixel per widget pixel, around the middle of the view."""
@@ -154,7 +171,16 @@ class Canvas(QWidget):
 
     def dragged_to(self) -> tuple[float, float] | None:
         """Raster position of the point being dragged, None if none is."""
-        return self._drag_xy
+        return self._hold.xy if self._hold is not None else None
+
+    def put_back(self) -> bool:
+        """The point that is held goes back to where it was; the button does nothing any more. False if none is."""
+        if self._hold is None:
+            return False
+        self._let_go()
+        self._press = self._pan_from = None
+        self.update()
+        return True
 
     # ---- painting
 
@@ -167,9 +193,13 @@ class Canvas(QWidget):
             painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, tr("Open a clip to begin"))
             painter.end()
             return
-        self._paint_frame(painter)
+        if self._image is not None:
+            self._image.paint(painter, self.mapping, fine=not self._calm.isActive() and self.width() > 1)
         if self.show_overlay:
-            overlay.draw(painter, self.picture, self.mapping, QRectF(self.rect()), fine=not self._calm.isActive())
+            dragged = None if self._hold is None or self._hold.xy is None else (self._hold.mark.track, self._hold.xy)
+            overlay.draw(painter, self.picture, self.mapping, QRectF(self.rect()), fine=not self._calm.isActive(),
+                         dragged=dragged)  # fmt: skip
+            rim.draw(painter, self._arrows(), self.picture.selected)
         self._paint_tools(painter)
         if self.loupe.on:
             self.loupe.paint(painter, self.rect(), self._mouse)
@@ -179,29 +209,9 @@ class Canvas(QWidget):
             painter.drawRect(QRectF(self.rect()).adjusted(1, 1, -1, -1))
         painter.end()
 
-    def _paint_frame(self, painter: QPainter) -> None:
-        if self._frame is None or self._image is None:
-            return
-        height, width = self._frame.shape[:2]
-        x, y = self.mapping.to_widget(0, 0)
-        target = QRectF(x, y, width * self.mapping.zoom, height * self.mapping.zoom)
-        ratio = self.devicePixelRatioF()
-        pixels = round(target.width() * ratio), round(target.height() * ratio)
-        if self._calm.isActive() or pixels[0] >= width or self.width() < 2:
-            painter.drawImage(target, self._image)
-            return
-        key = (pixels, id(self._frame))
-        if self._small is None or self._small[0] != key:
-            small = shrunk(self._frame, pixels)
-            image = QImage(small.data, pixels[0], pixels[1], 4 * pixels[0], QImage.Format.Format_RGB32)
-            self._small = (key, small, image)
-        painter.drawImage(target, self._small[2])
-
     def _paint_tools(self, painter: QPainter) -> None:
         """Reticle at the mouse, the point being dragged, the snap's target, boxes and strokes."""
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, on=True)
-        if self._grab is not None and self._drag_xy is not None:
-            overlay.draw_mark(painter, self._grab, QPointF(*self.mapping.to_widget(*self._drag_xy)), selected=True)
         if self.ghost is not None:
             at = QPointF(*self.mapping.to_widget(*self.ghost))
             painter.setPen(QPen(QColor(90, 255, 160), 1.6, Qt.PenStyle.DashLine))
@@ -214,22 +224,21 @@ class Canvas(QWidget):
             painter.drawRect(QRectF(self._press, self._mouse).normalized())
         elif self._stroke:
             painter.drawPolyline(self._stroke)
-        if self.tool == Tool.POINT and self._grab is None and self.underMouse():
-            self._paint_reticle(painter, self._mouse)
-
-    def _paint_reticle(self, painter: QPainter, at: QPointF) -> None:
-        """Four arms with a gap, dark under light, so that it shows on any picture."""
-        arm, gap = float(self.reticle), 3.0
-        for colour, width in ((QColor(0, 0, 0, 170), 3.0), (QColor(255, 255, 255), 1.0)):
-            painter.setPen(QPen(colour, width))
-            for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-                painter.drawLine(at + QPointF(dx * gap, dy * gap), at + QPointF(dx * arm, dy * arm))
+        dragged = self.dragged_to()
+        if self._hold is not None and dragged is not None:
+            at = QPointF(*self.mapping.to_widget(*dragged))
+            overlay.draw_held(painter, self._hold.mark, QPointF(*self.mapping.to_widget(*self._hold.mark.xy)), at)
+            draw_reticle(painter, at, self.reticle)
+        elif self.tool == Tool.POINT and self.underMouse():
+            draw_reticle(painter, self._mouse, self.reticle)
 
     # ---- mouse
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Grab the nearest point, begin a box, a stroke or a pan."""
         self._mouse = event.position()
+        if self._hold is not None:
+            return
         button = event.button()
         if button == Qt.MouseButton.RightButton:
             near = self._near(event.position())
@@ -240,7 +249,11 @@ class Canvas(QWidget):
         if button == Qt.MouseButton.MiddleButton:
             self._pan_from = self.mapping
         elif button == Qt.MouseButton.LeftButton and self.tool == Tool.POINT:
-            self._grab = self._near(event.position())
+            mark = self._near(event.position())
+            self._arrow = rim.hit(self._arrows(), event.position()) if mark is None and self.show_overlay else None
+            if mark is not None:
+                self._hold = Hold(mark, event.position())
+                self.held.emit(True)
         elif button == Qt.MouseButton.LeftButton and self.tool in (Tool.SCRIBBLE, Tool.SCRIBBLE_OUT):
             self._stroke = [event.position()]
 
@@ -248,12 +261,15 @@ class Canvas(QWidget):
         """Drag what was grabbed, pan, or show where the mouse is."""
         before, self._mouse = self._mouse, event.position()
         left = bool(event.buttons() & Qt.MouseButton.LeftButton)
-        moved = self._press is not None and _length(self._mouse - self._press) > SLACK
-        if self._grab is not None and left and (moved or self._drag_xy is not None):
-            self._drag(before, fine=bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
+        moved = self._press is not None and length(self._mouse - self._press) > SLACK
+        if self._hold is not None and not left:
+            self.put_back()  # the button was let go where nobody told: in a dialog, or another window
+        elif self._hold is not None:
+            fine = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
+            self._hold.move(before, self._mouse, self.mapping.zoom, fine=fine)
         elif self._stroke:
             self._stroke.append(event.position())
-        elif self._press is not None and moved and self.tool == Tool.POINT and self._grab is None:
+        elif self._press is not None and moved and self.tool == Tool.POINT:
             self._pan_from = self._pan_from or self.mapping
         if self._pan_from is not None and self._press is not None:
             shift = self._mouse - self._press
@@ -266,8 +282,11 @@ class Canvas(QWidget):
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Say what was done."""
         self._mouse = event.position()
-        press, grab, drag, stroke, pan = self._press, self._grab, self._drag_xy, self._stroke, self._pan_from
-        self._press, self._grab, self._drag_xy, self._stroke, self._pan_from = None, None, None, [], None
+        press, hold, stroke, pan, arrow = self._press, self._hold, self._stroke, self._pan_from, self._arrow
+        if hold is not None and event.button() != Qt.MouseButton.LeftButton:
+            return
+        self._let_go()
+        self._press, self._stroke, self._pan_from, self._arrow = None, [], None, None
         if press is None or event.button() == Qt.MouseButton.RightButton:
             return
         x, y = self.mapping.to_image(self._mouse.x(), self._mouse.y())
@@ -277,10 +296,12 @@ class Canvas(QWidget):
         elif stroke:
             points = np.array([self.mapping.to_image(p.x(), p.y()) for p in stroke])
             self.stroked.emit(points, self.tool == Tool.SCRIBBLE)
-        elif grab is not None and drag is not None:
-            self.dragged.emit(grab.track, *drag)
-        elif grab is not None and grab.track != self.picture.selected and not self._places_beside(grab):
-            self.picked.emit(grab.track)
+        elif hold is not None and hold.xy is not None:
+            self.dragged.emit(hold.mark.track, *hold.xy)
+        elif hold is not None and hold.mark.track != self.picture.selected and not self._places_beside(hold.mark):
+            self.picked.emit(hold.mark.track)
+        elif arrow is not None and pan is None:
+            self.sought.emit(arrow.track)
         elif pan is None and event.button() == Qt.MouseButton.LeftButton:
             self.clicked.emit(*(self.ghost or (x, y)))
         self.update()
@@ -308,6 +329,8 @@ class Canvas(QWidget):
         if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent) and event.key() in tabs:
             self.cycled.emit(tabs[Qt.Key(event.key())])
             return True
+        if event.type() in (QEvent.Type.WindowDeactivate, QEvent.Type.Hide):
+            self.put_back()
         return super().event(event)
 
     def leaveEvent(self, event: object) -> None:
@@ -320,24 +343,26 @@ class Canvas(QWidget):
         """The nearest mark within reach; the selected one wins ties."""
         best, least = None, REACH
         for mark in self.picture.marks if self.show_overlay else []:
-            away = _length(QPointF(*self.mapping.to_widget(*mark.xy)) - at)
+            away = length(QPointF(*self.mapping.to_widget(*mark.xy)) - at)
+            if mark.state == NONE:
+                continue
             if away < least or (best is not None and away == least and mark.track == self.picture.selected):
                 best, least = mark, away
         return best
 
     def _places_beside(self, mark: Mark) -> bool:
         """Whether a click near a point places the active one, which has no place: beside the glyph, not on it."""
-        away = _length(QPointF(*self.mapping.to_widget(*mark.xy)) - self._mouse)
+        away = length(QPointF(*self.mapping.to_widget(*mark.xy)) - self._mouse)
         return self.places and self.picture.selected is None and away > overlay.RADIUS
 
-    def _drag(self, before: QPointF, *, fine: bool) -> None:
-        if self._grab is None:
-            return
-        if self._drag_xy is None:
-            start = self._press or before
-            self._drag_xy, before = self._grab.xy, start
-        step = (self._mouse - before) * ((FINE if fine else 1.0) / self.mapping.zoom)
-        self._drag_xy = (self._drag_xy[0] + step.x(), self._drag_xy[1] + step.y())
+    def _let_go(self) -> None:
+        if self._hold is not None:
+            self._hold = None
+            self.held.emit(False)
+
+    def _arrows(self) -> list[rim.Arrow]:
+        """Arrows to the points outside the view."""
+        return rim.arrows(self.picture.marks, self.mapping, QRectF(self.rect()))
 
     def _repaint_around(self, before: QPointF) -> None:
         """Repaint what the mouse moved over, or everything where more changes."""
@@ -349,10 +374,5 @@ class Canvas(QWidget):
             self.update(QRect(int(at.x()) - reach, int(at.y()) - reach, 2 * reach, 2 * reach))
 
     def _zoom_changed(self) -> None:
-        self._small = None
         self.zoomed.emit(self.mapping.zoom)
         self.update()
-
-
-def _length(vector: QPointF) -> float:
-    return math.hypot(vector.x(), vector.y())

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 MOST_ZOOM = 64.0
+View = tuple[float, float, float] | None  # zoom and the raster x, y in the middle; None for the whole frame
 
 
 @dataclass(frozen=True)

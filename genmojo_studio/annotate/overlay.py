@@ -1,4 +1,4 @@
-"""Everything drawn over a frame, by one painter: masks, trails, points, arrows to points outside the view.
+"""Everything drawn over a frame, by one painter: masks, trails, points (`rim.py`: arrows to those outside the view).
 
 Colours and glyphs are those of `colours.py`. Work per frame depends on what is shown, not on how long the clip is; of
 thousands of tracks only `DETAILED` get glyphs and trails, the rest are dots.
@@ -27,6 +27,7 @@ DETAILED = 25  # marks with glyph and trail where there are more than MANY track
 MANY = 64
 FLYING = 800  # dots that are drawn while frames fly by
 RADIUS = 6.0
+_FAINT = 0.3  # of marks that would hide where another is dragged to
 _DARK = QColor(12, 14, 18)
 _THEIRS = QColor(255, 255, 255)
 
@@ -94,9 +95,19 @@ def contours_of(labels: np.ndarray, places: dict[int, int]) -> dict[int, tuple[i
     return found
 
 
-def draw(painter: QPainter, picture: Picture, mapping: Mapping, view: QRectF, *, fine: bool = True) -> None:
+def draw(
+    painter: QPainter,
+    picture: Picture,
+    mapping: Mapping,
+    view: QRectF,
+    *,
+    fine: bool = True,
+    dragged: tuple[int, tuple[float, float]] | None = None,
+) -> None:
     """Draw everything; `view` is the visible part of the widget.
 
+    `dragged`: a track that is being dragged and its raster position by now. Its mark is left to `draw_held`, and those
+    around are faint, so that nothing hides the pixel that it goes to.
     Without `fine` outlines and trails are drawn without smoothing, which costs a third, and of thousands of dots only
     FLYING: for frames that fly by.
     """
@@ -111,13 +122,15 @@ def draw(painter: QPainter, picture: Picture, mapping: Mapping, view: QRectF, *,
         if mark.state == NONE:
             continue
         centre = QPointF(*mapping.to_widget(*mark.xy))
-        if view.contains(centre) and mark.track == picture.selected:
+        if not view.contains(centre) or (dragged is not None and mark.track == dragged[0]):
+            continue
+        painter.setOpacity(_FAINT if dragged is not None and _close(centre, mapping, dragged[1]) else 1.0)
+        if mark.track == picture.selected:
             draw_mark(painter, mark, centre, selected=True)
-        elif view.contains(centre):
+        else:
             stamp, half = _stamp(mark, painter.device().devicePixelRatioF())
             painter.drawPixmap(centre - QPointF(half, half), stamp)
-        elif mark.state == VISIBLE:
-            _arrow(painter, mark, centre, view)
+    painter.setOpacity(1.0)
     _sketch(painter, picture.sketch, mapping)
     if picture.ghost is not None:
         _ghost(painter, picture.ghost, mapping)
@@ -172,13 +185,37 @@ def draw_mark(painter: QPainter, mark: Mark, centre: QPointF, *, selected: bool 
         painter.drawEllipse(centre, radius * 2.1, radius * 2.1)
         painter.setPen(QPen(colour.lighter(125), 1.8))
         painter.drawEllipse(centre, radius * 2.1, radius * 2.1)
-    painter.setPen(QPen(_DARK, 1))
-    at = centre + QPointF(radius * 1.3, -radius * 1.1)
+    _number(painter, mark, centre + QPointF(radius * 1.3, -radius * 1.1), colour.lighter(130))
+
+
+def _number(painter: QPainter, mark: Mark, at: QPointF, colour: QColor) -> None:
+    """The point's number, with a dark rim."""
     text = str(mark.point + 1)
+    painter.setPen(QPen(_DARK, 1))
     for shift in ((-1, 0), (1, 0), (0, -1), (0, 1)):
         painter.drawText(at + QPointF(*shift), text)
-    painter.setPen(colour.lighter(130))
+    painter.setPen(colour)
     painter.drawText(at, text)
+
+
+def draw_held(painter: QPainter, mark: Mark, origin: QPointF, at: QPointF) -> None:
+    """A mark that is being dragged: its ring without anything inside, a line from where it was, and its number."""
+    colour = QColor(*point_colour(mark.place, mark.point)).lighter(125)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    ring = glyph_path(mark.point, RADIUS * 0.6).translated(origin)
+    for pen in (QPen(_DARK, 3.2), QPen(colour, 1.4)):
+        painter.setPen(pen)
+        painter.drawPath(ring)
+        painter.drawEllipse(at, RADIUS * 2.1, RADIUS * 2.1)
+    painter.setPen(QPen(colour, 1.2, Qt.PenStyle.DotLine))
+    painter.drawLine(origin, at)
+    _number(painter, mark, at + QPointF(RADIUS * 2.2, -RADIUS * 2.0), colour)
+
+
+def _close(centre: QPointF, mapping: Mapping, xy: tuple[float, float]) -> bool:
+    """Whether a mark at a widget position would cover what is near a raster position."""
+    away = centre - QPointF(*mapping.to_widget(*xy))
+    return math.hypot(away.x(), away.y()) < 5 * RADIUS
 
 
 def _stamp(mark: Mark, ratio: float) -> tuple[QPixmap, float]:
@@ -317,19 +354,6 @@ def _dots(painter: QPainter, xy: np.ndarray, mapping: Mapping) -> None:
     painter.setPen(QPen(QColor(235, 235, 235), 3))
     painter.drawPoints(pg.functions.arrayToQPolygonF(*_mapped(xy, mapping)))
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, on=True)
-
-
-def _arrow(painter: QPainter, mark: Mark, target: QPointF, view: QRectF) -> None:
-    """A triangle at the rim of the view that points to a point outside it."""
-    inner = view.adjusted(14, 14, -14, -14)
-    middle = inner.center()
-    dx, dy = target.x() - middle.x(), target.y() - middle.y()
-    share = min(inner.width() / 2 / max(abs(dx), 1e-6), inner.height() / 2 / max(abs(dy), 1e-6))
-    tip, angle = QPointF(middle.x() + dx * share, middle.y() + dy * share), math.atan2(dy, dx)
-    corners = [tip + QPointF(10 * math.cos(angle + a), 10 * math.sin(angle + a)) for a in (0, 2.5, -2.5)]
-    painter.setPen(QPen(_DARK, 2))
-    painter.setBrush(QColor(*point_colour(mark.place, mark.point)))
-    painter.drawPolygon(QPolygonF(corners))
 
 
 def _mapped(xy: np.ndarray, mapping: Mapping) -> tuple[np.ndarray, np.ndarray]:

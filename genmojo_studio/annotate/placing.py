@@ -33,6 +33,8 @@ class Placing:
         self._owner = self._s.active[0]
         workspace.canvas.clicked.connect(self.clicked)
         workspace.canvas.dragged.connect(self.dragged)
+        workspace.canvas.held.connect(self.held)
+        workspace.canvas.sought.connect(self.seek)
         workspace.work.figures_ready.connect(self._take_figures)
         self._s.selected.connect(self._selected)
 
@@ -62,6 +64,34 @@ class Placing:
             self._placed()
         elif session.track is not None:
             self._w.work.tracker.after_key(session.track, session.frame, done)
+
+    def held(self, on: bool) -> None:
+        """A point is under the pressed button: until it is let go the clip stands still, as the key is for this frame.
+
+        One that was taken from a frame which is about to go is not held at all.
+        """
+        self._s.holding = on
+        if on and self._w.screen_link.painted != self._s.frame:
+            self._w.canvas.put_back()
+            self._s.said.emit(tr("This frame is not on show yet."))
+        elif on and self._w.play.player.playing:
+            self._w.play.player.stop()
+
+    def refuse(self) -> None:
+        """Say why a key does nothing now."""
+        self._s.said.emit(tr("A point is being dragged: let it go first, or press Esc."))
+
+    def seek(self, track: int | None) -> None:
+        """Bring a track's point into the middle of the view, beyond the picture too, and make it active."""
+        if track is None or track not in self._s.annotation.tracks:
+            return
+        cells = self._s.annotation.cells(track, np.array([self._w.screen_link.painted]))
+        if cells.state[0] == NONE:
+            self._s.said.emit(tr("The point has no place in this frame."))
+            return
+        self._s.remember()
+        self._s.select_track(track)
+        self._w.canvas.centre_on(float(cells.xy[0, 0]), float(cells.xy[0, 1]))
 
     def dragged(self, track: int, x: float, y: float) -> None:
         """Letting go of a point makes a key and solves the segments on both sides, as one step."""

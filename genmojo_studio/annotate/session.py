@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from genmojo_core.tracks.annotation import Annotation, ObjectInfo, Touched
 from genmojo_core.tracks.edits import Edit
 from genmojo_core.tracks.suspicion import Suspicion
 from genmojo_studio.annotate.frame_cache import FrameCache
+from genmojo_studio.annotate.mapping import View
 from genmojo_studio.settings import data_folder
 from genmojo_studio.state import AppState
 from genmojo_studio.translate import fault, told, tr
@@ -25,6 +27,7 @@ from genmojo_studio.translate import fault, told, tr
 POINTS = 5  # key points per object
 OBJECTS = 5  # objects per clip; both can be changed in the project's notes
 TRAILS = (0, 6, 24, 60)  # frames on either side
+Place = tuple[int, tuple[int, int], View]  # a frame, a point, a part of the frame
 
 
 @dataclass
@@ -58,6 +61,7 @@ class Session(QObject):
     edited = Signal(object)  # Touched
     selected = Signal()
     said = Signal(str)  # a sentence for the person
+    view_wanted = Signal(object)  # View: the part of the frame to be shown again
     unsaved = Signal(object)  # GenmojoError: an edit could not be written; it waits
     stored = Signal(float)  # an edit is on the disk, seconds after it was made
     settings_changed = Signal()
@@ -83,8 +87,10 @@ class Session(QObject):
         self.sketching = False  # whether it is shown
         self._points: dict[tuple[int, int], int] = {}
         self._looked_up = -1
-        self._back: list[tuple[int, tuple[int, int]]] = []  # frames and points before jumps
-        self._ahead: list[tuple[int, tuple[int, int]]] = []  # those that were gone back from
+        self.holding = False  # whether a point is being dragged: until it is let go its frame stands still
+        self.view: Callable[[], View] = lambda: None  # the part of the frame on show
+        self._back: list[Place] = []  # where one was before jumps
+        self._ahead: list[Place] = []  # what was gone back from
         self.annotation.listeners.append(self._touched)
         project.saved = lambda _seq, seconds: self.stored.emit(seconds)
         project.failed = self.unsaved.emit
@@ -162,34 +168,40 @@ class Session(QObject):
     # ---- going and choosing
 
     def go(self, frame: int, *, jump: bool = False) -> None:
-        """Show a frame; a jump can be gone back from."""
+        """Show a frame; a jump can be gone back from. While a point is held nothing moves."""
+        if self.holding:
+            return
         frame = min(max(frame, 0), self.annotation.frames - 1)
         if jump and frame != self.frame:
             self.remember()
         self.state.set(frame=frame)
 
     def remember(self) -> None:
-        """This frame and point can be gone back to: called where a jump, a scrub or a choice begins."""
+        """Frame, point and view can be gone back to: called where a jump, a scrub or a choice begins."""
         self._ahead = []
-        if not self._back or self._back[-1] != (self.frame, self.active):
-            self._back = [*self._back[-99:], (self.frame, self.active)]
+        if not self._back or self._back[-1] != self._here():
+            self._back = [*self._back[-99:], self._here()]
 
     def go_back(self) -> None:
-        """The frame and point before the last jump."""
+        """The frame, point and view before the last jump."""
         self._retrace(self._back, self._ahead)
 
     def go_ahead(self) -> None:
         """Where `go_back` came from."""
         self._retrace(self._ahead, self._back)
 
-    def _retrace(self, way: list[tuple[int, tuple[int, int]]], other: list[tuple[int, tuple[int, int]]]) -> None:
-        here = (self.frame, self.active)
+    def _here(self) -> Place:
+        return self.frame, self.active, self.view()
+
+    def _retrace(self, way: list[Place], other: list[Place]) -> None:
+        here = self._here()
         while way:
             place = way.pop()
             if place != here:
                 other.append(here)
                 self.select(*place[1])
                 self.go(place[0])
+                self.view_wanted.emit(place[2])
                 return
         self.said.emit(tr("There is no place to go to that way."))
 

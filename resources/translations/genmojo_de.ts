@@ -172,6 +172,10 @@
       <translation>Gespeichert: {name}</translation>
     </message>
     <message>
+      <source>The point is back where it was.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>Marked: frames {a} to {b}. A state or X applies to them.</source>
       <translation>Markiert: Bilder {a} bis {b}. Ein Zustand oder X gilt für sie.</translation>
     </message>
@@ -1098,6 +1102,14 @@
     <message>
       <source>{n} tracks of {name} are put aside; they come back if you choose it again.</source>
       <translation>{n} Spuren von {name} sind beiseitegelegt; sie kommen zurück, wenn es wieder gewählt wird.</translation>
+    </message>
+    <message>
+      <source>A point is being dragged: let it go first, or press Esc.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>The point has no place in this frame.</source>
+      <translation>Der Punkt hat in diesem Bild keinen Ort.</translation>
     </message>
     <message>
       <source>All points are placed. Seed the tracks now (Ctrl+G).</source>
@@ -2510,10 +2522,6 @@
     <message>
       <source>The point is outside the picture, yet marked visible: O marks it as out of view.</source>
       <translation>Der Punkt liegt außerhalb des Bilds, gilt aber als sichtbar: O setzt ihn auf außer Sicht.</translation>
-    </message>
-    <message>
-      <source>The point has no place in this frame.</source>
-      <translation>Der Punkt hat in diesem Bild keinen Ort.</translation>
     </message>
     <message>
       <source>Look at this point, then press Enter again.</source>
@@ -4908,6 +4916,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>One pixel of the clip per pixel of the screen.</source>
       <translation>Ein Pixel des Clips je Pixel des Bildschirms.</translation>
+    </message>
+    <message>
+      <source>Bring the point into view</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>The middle of the view, wherever the point is.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>Zoom in</source>
