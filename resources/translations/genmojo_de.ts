@@ -173,7 +173,7 @@
     </message>
     <message>
       <source>The point is back where it was.</source>
-      <translation type="unfinished" />
+      <translation>Der Punkt ist wieder, wo er war.</translation>
     </message>
     <message>
       <source>Marked: frames {a} to {b}. A state or X applies to them.</source>
@@ -1105,7 +1105,7 @@
     </message>
     <message>
       <source>A point is being dragged: let it go first, or press Esc.</source>
-      <translation type="unfinished" />
+      <translation>Ein Punkt wird gezogen: erst loslassen, oder Esc drücken.</translation>
     </message>
     <message>
       <source>The point has no place in this frame.</source>
@@ -4919,11 +4919,11 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     </message>
     <message>
       <source>Bring the point into view</source>
-      <translation type="unfinished" />
+      <translation>Punkt in die Ansicht holen</translation>
     </message>
     <message>
       <source>The middle of the view, wherever the point is.</source>
-      <translation type="unfinished" />
+      <translation>In die Mitte der Ansicht, wo auch immer der Punkt ist.</translation>
     </message>
     <message>
       <source>Zoom in</source>
