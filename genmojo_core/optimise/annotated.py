@@ -25,7 +25,8 @@ def with_annotated(clip: Clip, motions: Sequence[ObjectMotion]) -> list[ObjectMo
     """The motions with the clip's given tracks added to their own: sure where seen, silent where nobody knows.
 
     Where a person placed a hidden point, that place holds in the picture as those of seen points do, for less: it says
-    where the surface point is behind what hides it, not what shows there. Where their flags tell what a person gave and what a tracker guessed, guesses and uncertain places are silent too.
+    where the surface point is behind what hides it, not what shows there. Where their flags tell what a person gave and
+    what a tracker guessed, guesses and uncertain places are silent too.
 
     They are few beside the motion's own tracks, so where the motion is off by more than a person lets pass, each counts
     for as many as makes all of an object's together heard; elsewhere people only say that it is right.
