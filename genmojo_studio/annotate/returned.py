@@ -34,15 +34,17 @@ def run_of(session: Session, info: TrackInfo) -> tuple[int, int]:
 
 
 def pins(session: Session) -> list[Spot]:
-    """What came back and is not fixed yet, this person's own tracks first."""
-    infos = sorted(returned(session.annotation), key=lambda i: (
-        not is_mine(session, i), session.place_of(i.object), i.object, i.number))  # fmt: skip
-    found = []
-    for info in infos:
-        first, last = run_of(session, info)
-        whose = () if is_mine(session, info) else (tr("for {name}").format(name=info.person),)
-        found.append(Spot(info.id, first, last, first, 1.0, (_short(info), *whose)))
-    return found
+    """What came back and is not fixed yet, this person's own tracks first; for a reviewer what was fixed since."""
+    infos = session.annotation.active()
+    chosen: list[tuple[TrackInfo, tuple[str, ...]]]
+    if session.reviewing:
+        chosen = [(i, (tr("fixed: {said}").format(said=_said(i)),)) for i in infos if i.review == "fixed"]
+    else:
+        chosen = [(i, _for_annotator(session, i)) for i in infos if i.review == "needs_fix"]
+    chosen.sort(key=lambda c: (not (session.reviewing or is_mine(session, c[0])), session.place_of(c[0].object),
+                               c[0].object, c[0].number))  # fmt: skip
+    runs = [run_of(session, info) for info, _ in chosen]
+    return [Spot(info.id, *run, run[0], 1.0, why) for (info, why), run in zip(chosen, runs, strict=True)]
 
 
 def words(session: Session, info: TrackInfo) -> str:
@@ -87,9 +89,15 @@ def paint_run(painter: QPainter, session: Session, info: TrackInfo, area: QRectF
     painter.fillRect(QRectF(area.left(), area.bottom() - 2, max(area.width(), 2.0), 2), tint(255))
 
 
-def _short(info: TrackInfo) -> str:
-    said = tr("sent back by {who}: {reason}").format(who=info.reviewer or tr("a reviewer"), reason=told(info.reason))
-    return f"{said}, “{info.review_note}”" if info.review_note else said
+def _for_annotator(session: Session, info: TrackInfo) -> tuple[str, ...]:
+    who = info.reviewer or tr("a reviewer")
+    said = tr("sent back by {who}: {reason}").format(who=who, reason=_said(info))
+    return (said,) if is_mine(session, info) else (said, tr("for {name}").format(name=info.person))
+
+
+def _said(info: TrackInfo) -> str:
+    """A reviewer's reason, and words if there are any."""
+    return f"{told(info.reason)}, “{info.review_note}”" if info.review_note else told(info.reason)
 
 
 class ReturnedBar(QFrame):

@@ -85,6 +85,7 @@ class Session(QObject):
         self.hand_masks: dict[int, np.ndarray] = {}  # object id -> (T, h, w) bool, made in step 1
         self.sketch: list[Prompt] = []  # drawn in step 1 and not cut out yet
         self.sketching = False  # whether it is shown
+        self.reviewing = False  # whether a person decides about tracks (step 4)
         self._points: dict[tuple[int, int], int] = {}
         self._looked_up = -1
         self.holding = False  # whether a point is being dragged: until it is let go its frame stands still
@@ -166,6 +167,11 @@ class Session(QObject):
         return f"{name} · {number} {point}".rstrip()
 
     # ---- going and choosing
+
+    def enter(self, step: str, *, sketching: bool) -> None:
+        """A step begins; `sketching`: what is drawn in it is shown."""
+        self.sketching, self.reviewing = sketching, step == "review"
+        self.settings_changed.emit()
 
     def go(self, frame: int, *, jump: bool = False) -> None:
         """Show a frame; a jump can be gone back from. While a point is held nothing moves."""

@@ -221,3 +221,11 @@ STEPS = (
 def place_of(name: str) -> int:
     """Place (from 0) of the step of a name; ValueError where there is none."""
     return [step.name for step in STEPS].index(name)
+
+
+def first_open(annotation: Annotation, points: int, stride: int) -> int:
+    """The step that a clip is in: the first that lacks something, or Refine where something came back."""
+    if returned(annotation):
+        return place_of("refine")
+    lacking = (bool(step.missing(annotation, points, stride)) for step in STEPS)
+    return next((n for n, lacks in enumerate(lacking) if lacks), len(STEPS) - 1)

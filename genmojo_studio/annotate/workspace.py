@@ -183,7 +183,8 @@ class AnnotateWorkspace(QMainWindow):
         for panel in (self.pages, self.play):
             give_back(panel, self.canvas)
         self._theme_changed()
-        self.step = self._first_open_step()  # nothing of the step before is on show any more that could be remembered
+        # nothing of the step before is on show any more that could be remembered
+        self.step = steps.first_open(session.annotation, session.limit("points"), session.stride)
         self.show_step(self.step)
         QTimer.singleShot(0, self.restore_layout)  # again, once the new panels have been laid out
         self.screen_link.show_frame(session.frame)
@@ -253,7 +254,7 @@ class AnnotateWorkspace(QMainWindow):
         self.pages.setCurrentWidget(self._by_name[step.page])
         self.docks["information"].setWindowTitle(f"{tr('Information')}: {tr(step.title)}")
         self.strip.setVisible(step.shows_strip)
-        self.session.sketching = not step.clicks
+        self.session.enter(step.name, sketching=not step.clicks)
         if step.clicks:
             self.objects.use_tool(None)
         self.canvas.places = step.places_points
@@ -366,14 +367,6 @@ class AnnotateWorkspace(QMainWindow):
         missing = [s.missing(session.annotation, session.limit("points"), session.stride) for s in steps.STEPS]
         self.bar.show_step(self.step, missing)
         self.buttons.refresh()
-
-    def _first_open_step(self) -> int:
-        """The step that a clip is in: the first that lacks something."""
-        if self.session is None:
-            return 0
-        session = self.session
-        lacking = (bool(s.missing(session.annotation, session.limit("points"), session.stride)) for s in steps.STEPS)
-        return next((n for n, lacks in enumerate(lacking) if lacks), len(steps.STEPS) - 1)
 
     def _stored(self, seconds: float) -> None:
         if self.session is not None and not self.session.project.read_only:  # else word of an earlier clip, too late

@@ -1444,6 +1444,10 @@
       <translation>Eine Spur kam aus der Prüfung zurück.</translation>
     </message>
     <message>
+      <source>a reviewer</source>
+      <translation>der Prüfung</translation>
+    </message>
+    <message>
       <source>Sent back by {who}, round {n}: {reason}, {place}.</source>
       <translation>Von {who} zurückgegeben, Runde {n}: {reason}, {place}.</translation>
     </message>
@@ -1458,10 +1462,6 @@
     <message>
       <source>The point that is active was worked on and goes back to the reviewer.</source>
       <translation>Der gewählte Punkt wurde bearbeitet und geht an die Prüfung zurück.</translation>
-    </message>
-    <message>
-      <source>a reviewer</source>
-      <translation>der Prüfung</translation>
     </message>
     <message>
       <source>{n} tracks came back from the review.</source>
@@ -1482,6 +1482,10 @@
     <message>
       <source> and {n} more</source>
       <translation> und {n} weitere</translation>
+    </message>
+    <message>
+      <source>fixed: {said}</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>No tracks yet.</source>

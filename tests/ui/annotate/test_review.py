@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QApplication
 
 from genmojo_core.tracks import edit_tracks
 from genmojo_core.tracks.suspicion import Spot
+from genmojo_studio.annotate.session import open_session
 from genmojo_studio.settings import Settings
 
 
@@ -224,3 +225,33 @@ def test_a_note_is_typed_and_the_decision_made_from_the_keyboard(workspace, said
     QTest.keyClick(workspace.canvas, Qt.Key.Key_X)
     info = session.annotation.tracks[other]
     assert (info.review, info.reason, info.run) == ("needs_fix", "jump", (6, 6))
+
+
+def test_in_step_four_n_goes_to_what_was_fixed_and_not_to_what_was_just_sent_back(workspace, said):
+    session, queue = workspace.session, workspace.hands.going.queue
+    one, other, third = list(session.annotation.tracks)[:3]
+    queue.set_spots([Spot(third, 10, 14, 11, 0.9, ("sudden motion",))])
+    send_back(workspace, one, run=(7, 9))
+    session.do(edit_tracks.fixed(session.annotation, one))
+    send_back(workspace, other)
+    assert [s.track for s in queue.spots] == [other, third]
+    workspace.show_step(3)
+    assert [s.track for s in queue.spots] == [one, third]
+    workspace.table.trigger("annotate.move.worst")
+    assert (session.track, session.frame, said[-1]) == (one, 7, "fixed: drift, “left ear”")
+    workspace.show_step(2)
+    assert [s.track for s in queue.spots] == [other, third]
+
+
+def test_another_person_who_opens_the_project_sees_whose_track_came_back_and_why(workspace, said, clip_folder):
+    session, track = workspace.session, workspace.session.track
+    send_back(workspace, track)
+    path = session.project.path
+    workspace.close_clip()
+    workspace.open_with(open_session(workspace.state, path, "Cy"))
+    session, page = workspace.session, workspace.refine
+    assert workspace.step == 2 and session.project.person == "Cy"
+    assert page.returned.isVisible() and "Ada: " in page.returned.text.text()
+    assert "for Ada" in page.queue.item(0).text() and "left ear" in page.queue.item(0).text()
+    workspace.table.trigger("annotate.move.worst")
+    assert (session.track, session.frame) == (track, 4)
