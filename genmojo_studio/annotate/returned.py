@@ -81,12 +81,10 @@ def summary(session: Session) -> str:
     return "\n".join(lines)
 
 
-def paint_run(painter: QPainter, session: Session, info: TrackInfo, area: QRectF) -> None:
-    """Tint the frames that a reviewer means; `area` is where they lie in a row of the dope sheet."""
-    if info.review != "needs_fix":
-        return
+def paint_run(painter: QPainter, area: QRectF) -> None:
+    """Tint the frames that a reviewer means, where they lie in a row of the dope sheet."""
     painter.fillRect(area, tint(90))
-    painter.fillRect(QRectF(area.left(), area.bottom() - 2, max(area.width(), 2.0), 2), tint(255))
+    painter.fillRect(QRectF(area.left(), area.bottom() - 3, area.width(), 3), tint(255))
 
 
 def _for_annotator(session: Session, info: TrackInfo) -> tuple[str, ...]:

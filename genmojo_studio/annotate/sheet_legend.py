@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QDialog, QDialogButtonBox, QGridLayout, QLabel, QV
 
 from genmojo_core.tracks.annotation import BY_HOLD, BY_LINE, BY_TRACKER
 from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
+from genmojo_studio.annotate import returned
 from genmojo_studio.annotate.colours import point_colour
 from genmojo_studio.annotate.sheet_columns import Columns
 from genmojo_studio.annotate.sheet_painter import DECODED, MARKED, ROW, diamond, row_picture, segment_line
@@ -64,6 +65,7 @@ class SheetLegend(QDialog):
             (self._keyed(BY_TRACKER), tr("between two keys: filled by a tracker")),
             (self._keyed(BY_LINE), tr("filled by a straight line")),
             (self._keyed(BY_HOLD), tr("held where the first key is")),
+            (self._returned(), tr("sent back by a reviewer")),
             (_band(MARKED), tr("run marked by [ and ]")),
             (_band(DECODED), tr("frames that are ready to be shown")),
         ]
@@ -88,6 +90,15 @@ class SheetLegend(QDialog):
             painter.setBrush(QColor(255, 255, 255))
             for x in ends:
                 painter.drawPolygon(diamond(x, ROW / 2, 5.0))
+
+        return sketch
+
+    def _returned(self) -> Sketch:
+        ground = self._row(VISIBLE)
+
+        def sketch(painter: QPainter) -> None:
+            ground(painter)
+            returned.paint_run(painter, QRectF(_WIDE / 4, 0, _WIDE / 2, ROW))
 
         return sketch
 

@@ -13,6 +13,7 @@ from PySide6.QtGui import QColor, QImage, QPainter, QPainterPath, QPalette, QPen
 
 from genmojo_core.tracks.annotation import BY_HOLD, BY_LINE
 from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE
+from genmojo_studio.annotate import returned
 from genmojo_studio.annotate.colours import heat_colour, point_colour
 from genmojo_studio.annotate.overlay import glyph_path
 from genmojo_studio.annotate.session import Session
@@ -49,6 +50,12 @@ class SheetPainter:
         """A track's cells, segments and keys, its top at y."""
         picture = self._picture(track, axis, palette, painter.device().devicePixelRatioF())
         painter.drawImage(QPointF(axis.left, y), picture)
+        info = self._session.annotation.tracks[track]
+        if info.review == "needs_fix":
+            first, last = returned.run_of(self._session, info)
+            x0, x1 = max(axis.x_of(first), axis.left), min(axis.x_of(last + 1), axis.left + axis.width)
+            if x1 > x0:
+                returned.paint_run(painter, QRectF(x0, y, x1 - x0, ROW))
         middle, size = y + ROW / 2, min(5.0, max(2.5, axis.wide / 2))
         line, view = self.lines.of(track), (axis.first, axis.span)
         for start, end, mode in segments(line, view, _SHORT / axis.wide):

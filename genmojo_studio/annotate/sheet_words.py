@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from genmojo_core.tracks.annotation import BY_HOLD, BY_LINE, BY_TRACKER, CONFIRMED, KEY, SNAPPED, UNCERTAIN
+from genmojo_studio.annotate import returned
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.track_tree import review_name, state_name
 from genmojo_studio.translate import told, tr
@@ -28,6 +29,8 @@ def describe_row(session: Session, track: int) -> str:
     code, name = label(session, track)
     keys = len(session.annotation.keys(track))
     lines = [f"{code}{name}", tr("{n} keys; review: {state}").format(n=keys, state=review_name(info.review))]
+    if info.review in ("needs_fix", "fixed"):
+        lines.append(returned.words(session, info))
     if info.locked:
         lines.append(tr("locked"))
     if info.note:
@@ -56,8 +59,9 @@ def describe_cell(session: Session, track: int, frame: int) -> str:
 def _doubts(session: Session, track: int, frame: int) -> list[str]:
     """What speaks against a place, a line each; nothing where nothing does."""
     info, lines = session.annotation.tracks[track], []
-    if info.review == "needs_fix" and (info.run is None or info.run[0] <= frame <= info.run[1]):
-        lines.append(f"{tr('Reviewer')}: {told(info.reason)} {info.note}".strip())
+    first, last = returned.run_of(session, info)
+    if info.review == "needs_fix" and first <= frame <= last:
+        lines.append(returned.words(session, info))
     scores, found = session.suspicion.get(track), session.suspicions.get(track)
     if scores is not None and frame < len(scores) and scores[frame] >= DOUBTFUL:
         text = tr("suspicious ({n} of 9)").format(n=round(9 * float(scores[frame])))

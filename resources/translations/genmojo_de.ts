@@ -1485,7 +1485,7 @@
     </message>
     <message>
       <source>fixed: {said}</source>
-      <translation type="unfinished" />
+      <translation>behoben: {said}</translation>
     </message>
     <message>
       <source>No tracks yet.</source>
@@ -1902,6 +1902,10 @@
     <message>
       <source>held where the first key is</source>
       <translation>gehalten, wo der erste Schlüssel ist</translation>
+    </message>
+    <message>
+      <source>sent back by a reviewer</source>
+      <translation>aus der Prüfung zurückgegeben</translation>
     </message>
     <message>
       <source>run marked by [ and ]</source>

@@ -9,6 +9,8 @@ from PySide6.QtWidgets import QApplication
 from genmojo_core.tracks import edit_tracks
 from genmojo_core.tracks.suspicion import Spot
 from genmojo_studio.annotate.session import open_session
+from genmojo_studio.annotate.sheet_painter import ROW, RULER
+from genmojo_studio.annotate.sheet_words import describe_cell
 from genmojo_studio.settings import Settings
 
 
@@ -255,3 +257,25 @@ def test_another_person_who_opens_the_project_sees_whose_track_came_back_and_why
     assert "for Ada" in page.queue.item(0).text() and "left ear" in page.queue.item(0).text()
     workspace.table.trigger("annotate.move.worst")
     assert (session.track, session.frame) == (track, 4)
+
+
+def test_the_frames_that_a_reviewer_means_are_tinted_in_the_dope_sheet_until_it_is_fixed(workspace, said, qtbot):
+    session, sheet, track = workspace.session, workspace.play.sheet, workspace.session.track
+    session.select_track(list(session.annotation.tracks)[1])
+    session.go(0)
+
+    def pinks():
+        """Frames of the row whose lower edge is of the colour of what came back."""
+        picture = sheet.viewport().grab().toImage()
+        scale = picture.width() / sheet.viewport().width()
+        y = round((RULER + ROW * (sheet.rows().index(track) + 1) - 2) * scale)
+        at = [picture.pixelColor(round(sheet.x_of(t + 0.5) * scale), y) for t in range(session.annotation.frames)]
+        return [t for t, colour in enumerate(at) if colour.red() > 180 and colour.blue() > 100 > colour.green()]
+
+    assert pinks() == []
+    send_back(workspace, track, run=(4, 8))
+    assert pinks() == [4, 5, 6, 7, 8]
+    assert "Sent back by Bea" in describe_cell(session, track, 5)
+    assert "Sent back by Bea" not in describe_cell(session, track, 9)
+    session.do(edit_tracks.fixed(session.annotation, track))
+    assert pinks() == []
