@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from genmojo_core.errors import GenmojoError
+
+if TYPE_CHECKING:
+    from genmojo_core.store.project_file import ClipInfo
 
 
 def add_commands(commands: Any) -> None:
@@ -43,8 +46,8 @@ def run_validate(args: argparse.Namespace) -> dict[str, Any]:
     kind = _kind(args.file)
     try:
         if kind == "project":
-            project_file.load(Path(args.file))
-            faults = project_file.verify(Path(args.file))
+            loaded = project_file.load(Path(args.file))
+            faults = [*project_file.verify(Path(args.file)), *_changed_pictures(loaded.info)]
         elif kind == "tracks":
             npz.read_tracks(args.file)
             faults = []
@@ -53,6 +56,17 @@ def run_validate(args: argparse.Namespace) -> dict[str, Any]:
     except GenmojoError as error:
         faults = [error.sentence()]
     return {"file": args.file, "valid": not faults, "faults": faults, "exit_code": 2 if faults else 0}
+
+
+def _changed_pictures(info: ClipInfo) -> list[str]:
+    """Frames whose pictures are not those that were annotated, where the clip is there and the project knows them."""
+    from genmojo_core.clip import digests
+
+    if not any(info.sha256) or not Path(info.path).exists():
+        return []
+    now = dict(digests.of_frames(info.path))
+    changed, _ = digests.differing(info.sha256, [now.get(frame, "") for frame in range(info.frames)])
+    return [f"frame {frame} has another picture than when it was annotated" for frame in changed]
 
 
 def _kind(path: str) -> str:

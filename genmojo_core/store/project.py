@@ -13,7 +13,7 @@ the disk. There is no Save. The second program to open a file gets it read-only.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import IO
@@ -204,6 +204,17 @@ class Project:
         self.info = replace(self.info, path=str(path))
         if self._writer is not None:
             self._writer.put([("UPDATE clip SET value = ? WHERE key = 'path'", (str(path),))])
+
+    def note_digests(self, found: Mapping[int, str]) -> None:
+        """Digests of frames (`clip/digests.py`), by frame. Raises GenmojoError("io") if the project is read only."""
+        self._check_writable()
+        held = list(self.info.sha256 or ("",) * self.info.frames)
+        for frame, digest in found.items():
+            held[frame] = digest
+        self.info = replace(self.info, sha256=tuple(held))
+        if self._writer is not None:
+            sql = "UPDATE frames SET sha256 = ? WHERE position = ?"
+            self._writer.put([(sql, (digest, frame)) for frame, digest in found.items()])
 
     def close(self) -> None:
         """Write what waits, leave one file, release the lock."""

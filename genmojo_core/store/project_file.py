@@ -12,6 +12,7 @@ from typing import Literal, TypeVar
 
 import numpy as np
 
+from genmojo_core.clip import digests
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.atomic import staged
@@ -33,7 +34,8 @@ class ClipInfo:
     """The clip a project belongs to.
 
     name, path: of the clip. size: (width, height) of its source. frame_index (T,) numbers in the source, seconds (T,)
-    time stamps, sha256: T digests of the decoded RGB frames (empty strings where unknown), or none at all.
+    time stamps, sha256: T digests of what is stored of each frame (`clip/digests.py`; empty strings where unknown), or
+    none at all.
     """
 
     name: str
@@ -56,9 +58,9 @@ class ClipInfo:
 
 def clip_doubt(one: ClipInfo, other: ClipInfo) -> Literal["", "pictures", "times", "name"]:
     """What speaks against two projects being of the same clip, by their frames' digests, time stamps and names."""
-    told = [(a, b) for a, b in zip(one.sha256, other.sha256, strict=False) if a and b]
-    if told:
-        return "" if all(a == b for a, b in told) else "pictures"
+    changed, compared = digests.differing(one.sha256, other.sha256)
+    if compared:
+        return "pictures" if changed else ""
     if one.frames != other.frames or not np.allclose(one.seconds, other.seconds, atol=1e-3):
         return "times"
     return "" if one.name == other.name else "name"

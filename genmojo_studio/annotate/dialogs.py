@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QFileDialog, QInputDialog, QMenu
 
+from genmojo_core.clip import digests
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store import audit, project_file
 from genmojo_core.store.project_log import Row
@@ -98,10 +99,13 @@ class Dialogs:
         start, _ = QFileDialog.getOpenFileName(self._w, tr("What both began from (cancel if there is none)"), "", kinds)
 
         def compare() -> None:
-            theirs = project_file.load(Path(other))
-            base = project_file.load(Path(start)).annotation if start else None
-            doubt = project_file.clip_doubt(self._s.project.info, theirs.info)
-            MergeDialog(self._s, theirs.annotation, base, self._w, doubt).open()
+            mine, theirs = self._s.project.info, project_file.load(Path(other))
+            base = project_file.load(Path(start)) if start else None
+            doubt, against = project_file.clip_doubt(mine, theirs.info), theirs.info
+            if not doubt and base is not None:
+                doubt, against = project_file.clip_doubt(mine, base.info), base.info
+            MergeDialog(self._s, theirs.annotation, base.annotation if base is not None else None, self._w, doubt,
+                        *digests.differing(mine.sha256, against.sha256)).open()  # fmt: skip
 
         self._try(compare)
 

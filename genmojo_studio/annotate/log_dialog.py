@@ -28,7 +28,12 @@ from genmojo_studio import notify
 from genmojo_studio.annotate.audit_panel import AuditPanel
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.track_tree import review_name
-from genmojo_studio.translate import decimal, told, tr
+from genmojo_studio.translate import decimal, mark, told, tr
+
+_NOTE = mark(
+    "Seconds at work come from the log; a pause counts as one minute at most. A key belongs to whoever placed or moved "
+    "it last. What is left and its time are for the stride set above the frame."
+)
 
 
 class LogDialog(QDialog):
@@ -48,9 +53,7 @@ class LogDialog(QDialog):
         self.figures.setAccessibleName(tr("Figures of the clip and its people"))
         self.sheet.setAccessibleName(tr("Time sheet"))
         self.finished.connect(self.audit.close_tasks)
-        note = tr("Seconds at work come from the log; a pause counts as one minute at most. A key belongs to whoever "
-                  "placed or moved it last. What is left and its time are for the stride set above the frame.")  # fmt: skip
-        self.tabs.addTab(_with_note(self.figures, note), tr("Clip and people"))
+        self.tabs.addTab(_with_note(self.figures, tr(_NOTE)), tr("Clip and people"))
         self.tabs.addTab(self.sheet, tr("Time sheet"))
         self.tabs.addTab(self.audit, tr("Audit log"))
         self.audit.ready.connect(self._read)

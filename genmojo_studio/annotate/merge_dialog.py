@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import partial
 
 from PySide6.QtCore import QEvent, QObject, Qt
@@ -25,6 +26,7 @@ from genmojo_core.tracks.agreement import agreement, pairs
 from genmojo_core.tracks.annotation import Annotation
 from genmojo_core.tracks.edits import Edit
 from genmojo_core.tracks.merge import Choice, Difference, MergeRun, MergeThing, locked, merge, preview
+from genmojo_studio.annotate.picture_watch import spans
 from genmojo_studio.annotate.session import Other, Session
 from genmojo_studio.annotate.track_tree import review_name
 from genmojo_studio.translate import decimal, tr
@@ -39,11 +41,12 @@ class MergeDialog(QDialog):
     Args:
         session: the project that is open. theirs: the other annotator's. base: what both began from, or None.
         doubt: of `project_file.clip_doubt`; with one nothing is merged before a person said it is the same clip.
+        differing, compared: frames whose pictures differ, and how many could be compared.
     Raises GenmojoError as `merge.preview`.
     """
 
     def __init__(self, session: Session, theirs: Annotation, base: Annotation | None, parent: QWidget | None = None,
-                 doubt: str = "") -> None:  # fmt: skip
+                 doubt: str = "", differing: Sequence[int] = (), compared: int = 0) -> None:  # fmt: skip
         super().__init__(parent)
         self._session, self._theirs = session, theirs
         self.runs = preview(base, session.annotation, theirs)
@@ -67,7 +70,7 @@ class MergeDialog(QDialog):
         self.table.installEventFilter(self)
         self.sure = QCheckBox(tr("It is the same clip all the same"))
         self.sure.toggled.connect(self._allow)
-        warning = QLabel(_doubt_text(doubt), wordWrap=True)
+        warning = QLabel(_doubt_text(doubt, differing, compared), wordWrap=True)
         warning.setProperty("role", "warn")
         column = QVBoxLayout(self)
         for widget in (QLabel(self._summary(), wordWrap=True), warning, self.sure, self.table, note, buttons):
@@ -190,9 +193,13 @@ class MergeDialog(QDialog):
         self.accept()
 
 
-def _doubt_text(doubt: str) -> str:
+def _doubt_text(doubt: str, differing: Sequence[int], compared: int) -> str:
     """Why two projects may be of different clips."""
-    texts = {"pictures": tr("The pictures of the two projects differ: they are of different clips."),
+    some = tr("The pictures differ in {n} of {all} frames compared ({frames}): the projects may be of different clips.")
+    pictures = some.format(n=len(differing), all=compared, frames=spans(differing))
+    if len(differing) == compared:
+        pictures = tr("The pictures of the two projects differ in every frame: they are of different clips.")
+    texts = {"pictures": pictures,
              "times": tr("The time stamps of the two projects differ: they may be of different clips."),
              "name": tr("The two projects are of clips of different names.")}  # fmt: skip
     return texts.get(doubt, "")

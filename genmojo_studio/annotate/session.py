@@ -293,15 +293,15 @@ class Session(QObject):
         self.frame_changed.emit(self.frame)
 
 
-def _take_moved(project: Project, cache: FrameCache, clip: Path) -> None:
-    """Note where the clip lies. Raises GenmojoError("value") if it is another one, with everything closed."""
+def _check_clip(project: Project, cache: FrameCache, clip: Path, moved: bool) -> None:
+    """Note where a moved clip lies. Raises GenmojoError("value") if it is another one, with everything closed."""
     wanted, found = (project.info.frames, project.info.size), (cache.count, tuple(cache.size))
     if wanted != found:
         cache.close()
         project.close()
         raise GenmojoError("value", f"has {found[0]} frames of {found[1]}, the project's clip has {wanted[0]} of "
                            f"{wanted[1]}", str(clip), "choose the clip that was annotated")  # fmt: skip
-    if not project.read_only:
+    if moved and not project.read_only:
         project.moved_clip(clip.absolute())
 
 
@@ -325,8 +325,7 @@ def open_session(
         except GenmojoError:
             project.close()
             raise
-        if clip is not None:
-            _take_moved(project, cache, clip)
+        _check_clip(project, cache, clip or Path(project.info.path), clip is not None)
     else:
         cache = FrameCache(path)
         file = project_file or project_path(path)

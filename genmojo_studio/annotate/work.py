@@ -22,6 +22,7 @@ from genmojo_studio.annotate import hand_masks, tracking
 from genmojo_studio.annotate.candidates import Figures, all_figures, camera_path
 from genmojo_studio.annotate.hand_masks import Drawn
 from genmojo_studio.annotate.masks import Masks
+from genmojo_studio.annotate.picture_watch import PictureWatch
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.background import Tasks
 from genmojo_studio.translate import fault, tr
@@ -58,6 +59,7 @@ class Work(QObject):
         self.tracker = tracking.Tracking(session, self)
         self.tracker.spots_ready.connect(self.spots_ready)
         self.tracker.busy_changed.connect(self.busy_changed)
+        self.pictures = PictureWatch(session, self)
         self._read: _Read | None = None
         self._camera: np.ndarray | None = None  # once known; masks change it hardly
         self._ready = False
@@ -70,6 +72,7 @@ class Work(QObject):
     def close(self) -> None:
         """Drop what is going on."""
         self._closed = True
+        self.pictures.close()
         self.masks.close()
         self.tracker.close()
         self.tasks.close()

@@ -592,8 +592,12 @@
       <translation>Malen Sie zuerst etwas.</translation>
     </message>
     <message>
-      <source>The pictures of the two projects differ: they are of different clips.</source>
-      <translation>Die Bilder der beiden Projekte unterscheiden sich: Sie gehören zu verschiedenen Clips.</translation>
+      <source>The pictures differ in {n} of {all} frames compared ({frames}): the projects may be of different clips.</source>
+      <translation>Die Bilder unterscheiden sich in {n} von {all} verglichenen Bildern ({frames}): Die Projekte sind vielleicht von verschiedenen Clips.</translation>
+    </message>
+    <message>
+      <source>The pictures of the two projects differ in every frame: they are of different clips.</source>
+      <translation>Die Bilder der beiden Projekte unterscheiden sich durchweg: Sie sind von verschiedenen Clips.</translation>
     </message>
     <message>
       <source>The time stamps of the two projects differ: they may be of different clips.</source>
@@ -1102,6 +1106,30 @@
     <message>
       <source>{n} tracks of {name} are put aside; they come back if you choose it again.</source>
       <translation>{n} Spuren von {name} sind beiseitegelegt; sie kommen zurück, wenn es wieder gewählt wird.</translation>
+    </message>
+    <message>
+      <source>Pictures were changed</source>
+      <translation>Bilder wurden geändert</translation>
+    </message>
+    <message>
+      <source>Go on</source>
+      <translation>Weiter</translation>
+    </message>
+    <message>
+      <source>{n} of {all} pictures are not those that were annotated: frames {frames}. Your work is all there. Put the old pictures back, or look at these frames again.</source>
+      <translation>{n} von {all} Bildern sind nicht die, die annotiert wurden: Bilder {frames}. Ihre Arbeit ist vollständig da. Legen Sie die alten Bilder zurück oder sehen Sie diese Bilder noch einmal an.</translation>
+    </message>
+    <message>
+      <source>These are right now</source>
+      <translation>Diese gelten jetzt</translation>
+    </message>
+    <message>
+      <source>The project takes these pictures for its own and does not warn again.</source>
+      <translation>Das Projekt nimmt diese Bilder als die seinen und warnt nicht noch einmal.</translation>
+    </message>
+    <message>
+      <source>{first} to {last}</source>
+      <translation>{first} bis {last}</translation>
     </message>
     <message>
       <source>A point is being dragged: let it go first, or press Esc.</source>
@@ -6110,6 +6138,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>prüfen Sie cam_c2w</translation>
     </message>
     <message>
+      <source>cannot be read ({strerror})</source>
+      <translation>kann nicht gelesen werden ({strerror})</translation>
+    </message>
+    <message>
+      <source>check the file</source>
+      <translation>prüfen Sie die Datei</translation>
+    </message>
+    <message>
       <source>the short side is {short_side} pixels</source>
       <translation>die kurze Seite ist {short_side} Pixel</translation>
     </message>
@@ -6216,10 +6252,6 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>is a WebP file that is cut short</source>
       <translation>ist eine abgeschnittene WebP-Datei</translation>
-    </message>
-    <message>
-      <source>cannot be read ({strerror})</source>
-      <translation>kann nicht gelesen werden ({strerror})</translation>
     </message>
     <message>
       <source>check the path</source>
