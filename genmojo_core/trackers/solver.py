@@ -212,7 +212,8 @@ class TrackSolver:
             mask = self._clip.object_mask(int(at[0]))
             masks: Channel = self._clip.masks  # type: ignore[assignment]
             layer = Layer(self._shade, mask, (masks.value > 0) & ~mask)
-            self._motions[object_id] = ObjectMotion(layer, np.any(masks.valid, axis=(1, 2)))
+            known = np.mean(masks.valid, axis=(1, 2)) > 0.5  # a mask drawn by hand makes only its own pixels known
+            self._motions[object_id] = ObjectMotion(layer, known)
         return self._motions[object_id]
 
 

@@ -128,6 +128,16 @@ def test_where_no_mask_shows_the_object_states_follow_the_masks(
     assert (now.state[rest] != NONE).all()
 
 
+def test_what_is_known_of_another_object_says_nothing_of_this_one(clip: Clip) -> None:
+    value, valid = clip.masks.value.copy(), clip.masks.valid.copy()
+    value[[4, 5]] = np.where(value[[4, 5]] == 2, 2, 0)
+    valid[[4, 5]] = value[[4, 5]] == 2  # drawn by hand in frames without masks
+    held = clip.with_channels(masks=Channel(value, valid, clip.masks.source))
+    annotation = started(clip)
+    TrackSolver(held).answer(SolveRequest.of(annotation, int(clip.object_ids[0]))).edit(annotation).do(annotation)
+    assert (annotation.track(1).state[[4, 5]] == NONE).all()
+
+
 def test_an_object_that_left_by_the_border_is_out_of_view(clip: Clip) -> None:
     value = without(clip, [6, 7]).masks.value.copy()
     value[5, 0, 0] = 1  # a last scrap of it at the corner
