@@ -113,6 +113,13 @@ class Log:
             seq = after
         return seq
 
+    def on_way(self, seq: int, target: int) -> bool:
+        """Whether redoing from an edit on leads through a later one."""
+        at: int | None = seq
+        while at is not None and at < target:
+            at = self._next.get(at)
+        return at == target
+
     def path(self, target: int) -> tuple[list[int], list[int]]:
         """From the head to another place: edits to undo, newest first, and edits to do, oldest first."""
         back, forth, here = [], [], self.head

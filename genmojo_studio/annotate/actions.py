@@ -167,7 +167,8 @@ _REST = (
     _action("edit.redo", "Redo", "Ctrl+Shift+Z Ctrl+Y", "Does it again."),
     _action("edit.checkpoint", "Name this moment…", "Ctrl+S", "Everything is stored already; this gives it a name.",
             separator=True),
-    _action("edit.history", "Go back to a named moment…", "", "Undoes or redoes up to a checkpoint."),
+    _action("edit.history", "History…", "Ctrl+H", "All deeds, also those undone, named moments and other branches; "
+            "goes to any of them."),
     _action("review.fix", "Needs a fix…", "X", "Returns the track to its annotator with a reason.", blender="Ctrl+X"),
     _action("review.fixed", "Fixed", "Ctrl+Shift+Return Ctrl+Shift+Enter", "Says that the spot was worked on."),
     _action("review.approve", "Approve the track", "Ctrl+Return Ctrl+Enter", "The track is right; it is locked."),

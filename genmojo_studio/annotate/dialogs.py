@@ -11,12 +11,12 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog, QMenu
 
 from genmojo_core.clip import digests
 from genmojo_core.errors import GenmojoError
-from genmojo_core.store import audit, project_file
-from genmojo_core.store.project_log import Row
+from genmojo_core.store import project_file
 from genmojo_core.tracks import edit_tracks
 from genmojo_core.tracks.annotation import REASONS
 from genmojo_studio import notify
 from genmojo_studio.annotate import audit_panel, take_tracks, verbs
+from genmojo_studio.annotate.history_dialog import HistoryDialog
 from genmojo_studio.annotate.log_dialog import LogDialog
 from genmojo_studio.annotate.merge_dialog import MergeDialog
 from genmojo_studio.annotate.seed_dialog import SeedDialog
@@ -79,16 +79,12 @@ class Dialogs:
             self._s.said.emit(tr("Named: {name}").format(name=name))
 
     def history(self) -> None:
-        """Go back to a named moment."""
-        rows = self._s.project.checkpoints()
-        if not rows:
-            self._s.said.emit(tr("No moment has a name yet (Ctrl+S)."))
-            return
-        titles = [f"{row.title}   {audit.local(row.at)}" for row in rows[::-1]]
-        title, chosen = QInputDialog.getItem(self._w, tr("Named moments"), tr("Go back to"), titles, 0, False)
-        if chosen:
-            row = rows[::-1][titles.index(title)]
-            self._try(lambda: self._go_to(row))
+        """All states there ever were; the window stays usable beside it."""
+        for old in self._w.findChildren(HistoryDialog):
+            old.close()
+        dialog = HistoryDialog(self._s, self._w)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.show()
 
     def merge(self) -> None:
         """Compare with a second annotator's project, and merge it; a project both began from makes it three-way."""
@@ -133,11 +129,6 @@ class Dialogs:
     def export_tracks(self) -> None:
         """Tracks into a file."""
         take_tracks.export_tracks(self._w)
-
-    def _go_to(self, row: Row) -> None:
-        step = self._s.project.go_to(row.parent)
-        if step is not None:
-            self._s.show_step(step, tr("Back at: ") + row.title)
 
     def _try(self, work: Callable[[], object]) -> bool:
         """Whether it worked; faults are told."""

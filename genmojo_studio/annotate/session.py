@@ -247,6 +247,10 @@ class Session(QObject):
         """Do it again and show where it was."""
         self._moved(self.project.redo, tr("Done again: {title}"))
 
+    def go_to(self, seq: int) -> None:
+        """Go to any state of the history, on any branch, and show what changed last on the way."""
+        self._moved(lambda: self.project.go_to(seq), tr("There now, after: {title}. The history leads back."))
+
     def show_step(self, step: Step, sentence: str) -> None:
         """Go where a step happened and say what it did."""
         if step.track is not None and step.track in self.annotation.tracks:

@@ -236,28 +236,12 @@
       <translation>Name</translation>
     </message>
     <message>
-      <source>Named moments</source>
-      <translation>Benannte Stände</translation>
-    </message>
-    <message>
-      <source>Go back to</source>
-      <translation>Zurück zu</translation>
-    </message>
-    <message>
       <source>The second annotator's project</source>
       <translation>Das Projekt der zweiten Person</translation>
     </message>
     <message>
       <source>What both began from (cancel if there is none)</source>
       <translation>Wovon beide ausgingen (abbrechen, wenn es das nicht gibt)</translation>
-    </message>
-    <message>
-      <source>No moment has a name yet (Ctrl+S).</source>
-      <translation>Noch kein Stand hat einen Namen (Strg+S).</translation>
-    </message>
-    <message>
-      <source>Back at: </source>
-      <translation>Zurück bei: </translation>
     </message>
     <message>
       <source>Dope sheet: states of all points over time</source>
@@ -330,6 +314,82 @@
     <message>
       <source>likeness (NCC)</source>
       <translation>Ähnlichkeit (NCC)</translation>
+    </message>
+    <message>
+      <source>Nothing is lost by going elsewhere: what is undone stays here, and the way back is listed too.</source>
+      <translation>Beim Wechseln geht nichts verloren: Zurückgenommenes bleibt hier stehen, und der Weg zurück auch.</translation>
+    </message>
+    <message>
+      <source>History</source>
+      <translation>Verlauf</translation>
+    </message>
+    <message>
+      <source>Named moments only</source>
+      <translation>Nur benannte Momente</translation>
+    </message>
+    <message>
+      <source>States of the history</source>
+      <translation>Stände des Verlaufs</translation>
+    </message>
+    <message>
+      <source>Go to this state</source>
+      <translation>Zu diesem Stand gehen</translation>
+    </message>
+    <message>
+      <source>Back to before the jump</source>
+      <translation>Zurück vor den Sprung</translation>
+    </message>
+    <message>
+      <source>Show earlier</source>
+      <translation>Frühere zeigen</translation>
+    </message>
+    <message>
+      <source>The beginning</source>
+      <translation>Der Anfang</translation>
+    </message>
+    <message>
+      <source>Here you are</source>
+      <translation>Hier bist du</translation>
+    </message>
+    <message>
+      <source>Search</source>
+      <translation>Suchen</translation>
+    </message>
+    <message>
+      <source>Deed</source>
+      <translation>Was getan wurde</translation>
+    </message>
+    <message>
+      <source>Who</source>
+      <translation>Wer</translation>
+    </message>
+    <message>
+      <source>When</source>
+      <translation>Wann</translation>
+    </message>
+    <message>
+      <source>Point</source>
+      <translation>Punkt</translation>
+    </message>
+    <message>
+      <source>Frame</source>
+      <translation>Bild</translation>
+    </message>
+    <message>
+      <source>Read only: another program has this project open.</source>
+      <translation>Nur lesbar: ein anderes Programm hat dieses Projekt geöffnet.</translation>
+    </message>
+    <message>
+      <source>Undone</source>
+      <translation>Zurückgenommen</translation>
+    </message>
+    <message>
+      <source>In effect</source>
+      <translation>In Kraft</translation>
+    </message>
+    <message>
+      <source>Another branch: {n} deeds</source>
+      <translation>Ein anderer Zweig: {n} Schritte</translation>
     </message>
     <message>
       <source>The clip was moved</source>
@@ -1848,6 +1908,10 @@
       <translation>Dorthin gibt es keine Stelle mehr.</translation>
     </message>
     <message>
+      <source>There now, after: {title}. The history leads back.</source>
+      <translation>Jetzt dort, nach: {title}. Der Verlauf führt zurück.</translation>
+    </message>
+    <message>
       <source>Nothing more to take back or do again.</source>
       <translation>Nichts mehr zurückzunehmen oder zu wiederholen.</translation>
     </message>
@@ -2184,20 +2248,12 @@
       <translation>Zeichnen</translation>
     </message>
     <message>
-      <source>History</source>
-      <translation>Verlauf</translation>
-    </message>
-    <message>
       <source>Place</source>
       <translation>Setzen</translation>
     </message>
     <message>
       <source>Step</source>
       <translation>Schritt</translation>
-    </message>
-    <message>
-      <source>Point</source>
-      <translation>Punkt</translation>
     </message>
     <message>
       <source>Track</source>
@@ -2698,10 +2754,6 @@
     <message>
       <source>This step only</source>
       <translation>Nur dieser Schritt</translation>
-    </message>
-    <message>
-      <source>Search</source>
-      <translation>Suchen</translation>
     </message>
     <message>
       <source>Command</source>
@@ -3346,10 +3398,6 @@
     <message>
       <source>Arrives (s)</source>
       <translation>Ankunft (s)</translation>
-    </message>
-    <message>
-      <source>Frame</source>
-      <translation>Bild</translation>
     </message>
     <message>
       <source>Field of view (°)</source>
@@ -5086,12 +5134,12 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Alles ist schon gespeichert; so bekommt es einen Namen.</translation>
     </message>
     <message>
-      <source>Go back to a named moment…</source>
-      <translation>Zurück zu einem benannten Stand…</translation>
+      <source>History…</source>
+      <translation>Verlauf…</translation>
     </message>
     <message>
-      <source>Undoes or redoes up to a checkpoint.</source>
-      <translation>Nimmt zurück oder wiederholt bis zu einem Stand.</translation>
+      <source>All deeds, also those undone, named moments and other branches; goes to any of them.</source>
+      <translation>Alles, was getan wurde, auch Zurückgenommenes, benannte Momente und andere Zweige; geht zu jedem davon.</translation>
     </message>
     <message>
       <source>Needs a fix…</source>
