@@ -188,6 +188,11 @@ class Annotation:
         rows = [self.row(track) for track in tracks]
         return self._cells.xy[first:end, rows], self._cells.state[first:end, rows]
 
+    def flags(self, tracks: list[int], frames: np.ndarray) -> np.ndarray:  # (n, tracks) uint8
+        """Flags of some tracks in frames (n,), copied."""
+        rows = [self.row(track) for track in tracks]
+        return self._cells.flags[frames].take(rows, axis=1)
+
     def row(self, track: int) -> int:
         """Row of a track. Raises GenmojoError("argument") if there is none of that id."""
         if track not in self._rows:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from genmojo_studio.actions import Action
 from genmojo_studio.annotate import steps
+from genmojo_studio.annotate.sheet_order import ORDERS
 
 WORKSPACE = "annotate"
 KEYED = 9  # points of an object, and objects, that have a key of their own; Tab and the tree reach all
@@ -32,6 +33,8 @@ _MOVE = (
             blender="Left", repeats=True),
     _action("move.stride_next", "On by the stride", ".", "On by the frames of the stride.", cvat="V .", repeats=True),
     _action("move.stride_previous", "Back by the stride", ",", "Back by the stride.", cvat="C ,", repeats=True),
+    _action("move.open_next", "Next open frame of the stride", "J", "Where not every point is accepted yet."),
+    _action("move.open_previous", "Previous open frame of the stride", "Shift+J", "The same, backwards."),
     _action("move.accept", "Accept all points and go on", "Return Enter", "Confirms the points here that nothing "
             "speaks against, and goes on by the stride or to the point that needs a look."),
     _action("move.accept_back", "Accept and go back", "Shift+Return Shift+Enter", "The same, backwards."),
@@ -135,6 +138,10 @@ _VIEW = (
     ),
     _action("view.time_out", "Zoom out of time", "Ctrl+-", "More frames in dope sheet and graphs."),
     _action("view.time_fit", "Whole clip in the dope sheet", "Ctrl+0", "All frames; a double click there does it too."),
+    *(
+        _action(f"view.order_{name}", text, "", help_, menu="View/Order of rows", checkable=True)
+        for name, (text, help_) in ORDERS.items()
+    ),
     _action("view.legend", "Signs of the dope sheet", "Shift+F1", "What they mean, and what the mouse does there."),
     _action(
         "view.follow", "View follows the point", "L", "Keeps the point in the middle.", checkable=True, cvat="Shift+L"

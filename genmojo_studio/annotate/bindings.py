@@ -18,6 +18,7 @@ from genmojo_studio.annotate.object_verbs import ObjectVerbs
 from genmojo_studio.annotate.placing import Placing
 from genmojo_studio.annotate.session import TRAILS
 from genmojo_studio.annotate.sheet_menu import SheetMenu
+from genmojo_studio.annotate.sheet_order import ORDERS
 from genmojo_studio.translate import decimal, tr
 
 if TYPE_CHECKING:
@@ -174,6 +175,9 @@ class Hands:
             "view.time_out": lambda: w.play.view.zoom(-2),
             "view.time_fit": w.play.view.fit,
             "view.legend": w.play.show_legend,
+            **{f"view.order_{order}": partial(w.play.set_order, order) for order in ORDERS},
+            "move.open_next": partial(w.play.marks.go, 1),
+            "move.open_previous": partial(w.play.marks.go, -1),
             "view.follow": lambda: w.screen_link.set_follow(not w.screen_link.follow),
             "view.loupe_stay": self.loupe_toggle,
             "view.loupe_smooth": w.screen_link.switch_smooth,
@@ -233,9 +237,13 @@ class Hands:
             "view.strip": lambda: w.strip.isVisible(),
             "track.lock": lambda: s.track is not None and s.annotation.tracks[s.track].locked,
         }
+        switches |= {f"view.order_{order}": partial(self._sorted_by, order) for order in ORDERS}
         switches |= {f"panel.{panel}": partial(w.docks[panel].isVisibleTo, w) for panel in w.docks}
         switch = switches.get(name)
         return None if switch is None else lambda: w.session is s and switch()
+
+    def _sorted_by(self, order: str) -> bool:
+        return self._w.play.sheet.order == order
 
     # ---- mouse
 

@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
 
 from genmojo_studio.actions import ActionTable
 from genmojo_studio.annotate import steps
+from genmojo_studio.annotate.session import STRIDES
 from genmojo_studio.annotate.steps import SHORT, Step
 from genmojo_studio.translate import tr
 
@@ -196,7 +197,7 @@ class StepBar(QWidget):
         self.position.setMinimumWidth(90)
         row.addWidget(self.position)
         row.addWidget(QLabel(tr("stride")))
-        self.stride = QSpinBox(minimum=1, maximum=10, value=2)
+        self.stride = QSpinBox(minimum=STRIDES[0], maximum=STRIDES[1], value=2)
         self.stride.setAccessibleName(tr("Stride in frames"))
         self.stride.valueChanged.connect(self.stride_changed)
         row.addWidget(self.stride)

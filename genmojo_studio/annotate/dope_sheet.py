@@ -26,8 +26,10 @@ from PySide6.QtWidgets import QAbstractScrollArea, QToolTip, QWidget
 
 from genmojo_core.tracks.annotation import Touched
 from genmojo_studio.annotate.session import Session
+from genmojo_studio.annotate.sheet_order import ordered
 from genmojo_studio.annotate.sheet_painter import LABEL, MARKED, ROW, RULER, SheetPainter
 from genmojo_studio.annotate.sheet_words import describe_cell, describe_row
+from genmojo_studio.annotate.stride_marks import StrideMarks
 from genmojo_studio.annotate.time_view import Axis, TimeView
 from genmojo_studio.translate import tr
 
@@ -44,14 +46,14 @@ class DopeSheet(QAbstractScrollArea):
     painted = Signal(int, int, int)  # track, first and last frame
     asked = Signal(int, int, QPoint)  # track, frame and place on the screen of a right click
 
-    def __init__(self, session: Session, view: TimeView, parent: QWidget | None = None) -> None:
+    def __init__(self, session: Session, view: TimeView, marks: StrideMarks, parent: QWidget | None = None) -> None:
         self._still: QPixmap | None = None
         super().__init__(parent)
         self._session, self.view = session, view
-        self.by_suspicion = False
+        self.order = "object"  # of `ORDERS`
         self._rows: list[int] = []
-        self._painter = SheetPainter(session)
-        self._press: tuple[int, int, QPointF] | None = None  # row, frame, place of a press that may paint
+        self._painter = SheetPainter(session, marks)
+        self._press: tuple[int, int, QPointF] | None = None  # track, frame, place of a press that may paint
         self._pan: tuple[QPointF, float, int] | None = None  # place, first frame and row when panning began
         self._at = 0
         self._ruler = False
@@ -61,13 +63,16 @@ class DopeSheet(QAbstractScrollArea):
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.verticalScrollBar().valueChanged.connect(self._dirty)
         view.changed.connect(self._dirty)
+        marks.changed.connect(self._dirty)
         session.edited.connect(self._edited)
         session.selected.connect(self._chosen)
         session.settings_changed.connect(self.viewport().update)
         session.frame_changed.connect(self.viewport().update)
         session.cache.filled.connect(self._ring_changed)
         self.viewport().setMouseTracking(True)
-        self.refresh()
+        self._known: dict[int, tuple[int, int]] = {}  # object and number of every row
+        self._sort()
+        self._dirty()
 
     def sizeHint(self) -> QSize:
         """Room for a dozen rows."""
@@ -77,15 +82,17 @@ class DopeSheet(QAbstractScrollArea):
         """Track ids from top to bottom."""
         return list(self._rows)
 
-    def sort_by_suspicion(self, on: bool) -> None:
-        """Worst tracks first, or by object and point."""
-        self.by_suspicion = on
-        self.refresh()
+    def set_order(self, order: str) -> None:
+        """Sort the rows, one of `ORDERS`; they stay so while keys are placed, until they are sorted again."""
+        self.order = order
+        self._sort()
+        self._chosen()
 
     def refresh(self, _what: object = None) -> None:
         """Suspicion has changed."""
         self._painter.forget()
-        self._rows = self._order()
+        if self.order == "suspicion":
+            self._sort()
         self._dirty()
 
     # ---- geometry
@@ -156,11 +163,14 @@ class DopeSheet(QAbstractScrollArea):
         """What is being painted now, here by dragging or by a key held down."""
         painting = self._session.painting
         if self._press is not None and self._at != self._press[1]:
-            row, run = self._press[0], sorted((self._press[1], self._at))
-        elif painting is not None and painting.track in self._rows:
-            row, run = self._rows.index(painting.track), list(painting.run())
+            track, run = self._press[0], sorted((self._press[1], self._at))
+        elif painting is not None:
+            track, run = painting.track, list(painting.run())
         else:
             return
+        if track not in self._rows:
+            return
+        row = self._rows.index(track)
         y = RULER + (row - self.verticalScrollBar().value()) * ROW
         x0, x1 = (min(max(axis.x_of(f), LABEL), LABEL + axis.width) for f in (run[0], run[1] + 1))
         tint = QColor(MARKED)
@@ -186,7 +196,7 @@ class DopeSheet(QAbstractScrollArea):
         if row is not None:
             self.picked.emit(self._rows[row])
             if place.x() >= LABEL:
-                self._press, self._at = (row, frame, place), frame
+                self._press, self._at = (self._rows[row], frame, place), frame
         if self._ruler or (row is not None and place.x() >= LABEL):
             self.seek.emit(frame)
 
@@ -219,7 +229,7 @@ class DopeSheet(QAbstractScrollArea):
             return
         press, self._press, self._ruler = self._press, None, False
         if press is not None and self._at != press[1]:
-            self.painted.emit(self._rows[press[0]], *sorted((press[1], self._at)))
+            self.painted.emit(press[0], *sorted((press[1], self._at)))
         self.viewport().update()
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
@@ -300,22 +310,23 @@ class DopeSheet(QAbstractScrollArea):
         first = self.verticalScrollBar().value()
         return self._rows[first : first + self._visible() + 1]
 
-    def _order(self) -> list[int]:
-        session = self._session
-        if self.by_suspicion:
-            worst = {t: float(v.max(initial=0)) for t, v in session.suspicion.items()}
-            return sorted((i.id for i in session.annotation.active()), key=lambda t: -worst.get(t, 0.0))
-        places = {o.id: n for n, o in enumerate(session.objects())}
-        infos = session.annotation.active()
-        return [i.id for i in sorted(infos, key=lambda i: (places.get(i.object, 99), i.object, i.number))]
-
     def _edited(self, touched: Touched) -> None:
         self._painter.forget(touched.tracks)
-        if touched.objects or touched.tracks:
-            self._rows = self._order()
         if touched.objects:  # their order gives the colours
             self._painter.forget()
+        if touched.objects or any(self._changed_place(track) for track in touched.tracks):
+            self._sort()
         self._dirty()
+
+    def _changed_place(self, track: int) -> bool:
+        """Whether a track came, went, or became another point."""
+        info = self._session.annotation.tracks.get(track)
+        return self._known.get(track) != (None if info is None else (info.object, info.number))
+
+    def _sort(self) -> None:
+        self._rows = ordered(self._session, self.order)
+        tracks = self._session.annotation.tracks
+        self._known = {track: (tracks[track].object, tracks[track].number) for track in self._rows}
 
     def _chosen(self) -> None:
         """The active point's row comes into view."""

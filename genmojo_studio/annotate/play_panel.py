@@ -26,7 +26,9 @@ from genmojo_studio.annotate.dope_sheet import DopeSheet
 from genmojo_studio.annotate.graphs import Graphs
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.sheet_legend import SheetLegend
+from genmojo_studio.annotate.sheet_order import ORDERS
 from genmojo_studio.annotate.sheet_painter import LABEL
+from genmojo_studio.annotate.stride_marks import StrideMarks
 from genmojo_studio.annotate.time_view import TimeView
 from genmojo_studio.annotate.timeline import Timeline
 from genmojo_studio.icons import icon
@@ -105,8 +107,9 @@ class PlayPanel(QWidget):
         self._session, self._actions = session, actions
         self.player = Player(session, self)
         self.view = TimeView(session, self)
-        self.sheet, self.graphs = DopeSheet(session, self.view), Graphs(session, self.view)
-        self.timeline = Timeline(session, self.view, self._across)
+        self.marks = StrideMarks(session, self)
+        self.sheet, self.graphs = DopeSheet(session, self.view, self.marks), Graphs(session, self.view)
+        self.timeline = Timeline(session, self.view, self.marks, self._across)
         self.brush = QComboBox()
         self.legend: SheetLegend | None = None
         self.tabs, self.stack = QTabBar(), QStackedWidget()
@@ -168,12 +171,14 @@ class PlayPanel(QWidget):
         self.brush.setAccessibleName(tr("State that a drag paints"))
         self.brush.setToolTip(tr("What a drag over the dope sheet paints"))
         row.addWidget(self.brush)
-        sort = QToolButton()
-        sort.setText(tr("worst first"))
-        sort.setToolTip(tr("Order the rows by suspicion"))
-        sort.setCheckable(True)
-        sort.toggled.connect(self.sheet.sort_by_suspicion)
-        row.addWidget(sort)
+        self.order = QComboBox()
+        for name, (title, tip) in ORDERS.items():
+            self.order.addItem(tr(title), name)
+            self.order.setItemData(self.order.count() - 1, tr(tip), Qt.ItemDataRole.ToolTipRole)
+        self.order.setAccessibleName(tr("Order of the rows"))
+        self.order.setToolTip(tr("Order of the rows of the dope sheet"))
+        self.order.activated.connect(lambda n: self.sheet.set_order(str(self.order.itemData(n))))
+        row.addWidget(self.order)
         self.speed = QComboBox()
         for speed in SPEEDS:
             self.speed.addItem(f"{speed:g}×", speed)
@@ -189,6 +194,11 @@ class PlayPanel(QWidget):
         self.help.clicked.connect(self._clicked)
         row.addWidget(self.help)
         return row
+
+    def set_order(self, order: str) -> None:
+        """Sort the rows of the dope sheet, one of `ORDERS`."""
+        self.order.setCurrentIndex(self.order.findData(order))
+        self.sheet.set_order(order)
 
     def show_legend(self) -> None:
         """What the signs of the dope sheet mean."""

@@ -26,6 +26,8 @@ from genmojo_studio.translate import fault, told, tr
 
 POINTS = 5  # key points per object
 OBJECTS = 5  # objects per clip; both can be changed in the project's notes
+STRIDES = (1, 10)  # least and most
+_STRIDE = "stride"  # blob of the project
 TRAILS = (0, 6, 24, 60)  # frames on either side
 Place = tuple[int, tuple[int, int], View]  # a frame, a point, a part of the frame
 
@@ -71,7 +73,7 @@ class Session(QObject):
         super().__init__(parent)
         self.state, self.cache, self.project = state, cache, project
         self.clip: Clip | None = None  # the whole clip at reduced size, read in the background
-        self.stride, self.trail, self.mask_mode = 2, TRAILS[1], 1
+        self.stride, self.trail, self.mask_mode = _stride_of(project), TRAILS[1], 1
         self.active = (0, 1)  # object id, number 1..; the point that a click places
         self.run: tuple[int | None, int | None] = (None, None)  # marked by [ and ], on this track:
         self.run_track: int | None = None
@@ -211,6 +213,14 @@ class Session(QObject):
                 return
         self.said.emit(tr("There is no place to go to that way."))
 
+    def set_stride(self, stride: int) -> None:
+        """Frames that Enter, comma and full stop move by; kept with the project, beside its history."""
+        if stride != self.stride:
+            self.stride = stride
+            if not self.project.read_only:
+                self.project.put_blob(_STRIDE, str(stride).encode())
+            self.settings_changed.emit()
+
     def select(self, object_id: int, number: int = 1) -> None:
         """Make a point active."""
         self.active, self.placed = (object_id, number), None
@@ -295,6 +305,12 @@ class Session(QObject):
         if self.painting is not None:
             self.painting.last = self.frame
         self.frame_changed.emit(self.frame)
+
+
+def _stride_of(project: Project) -> int:
+    """The stride that a project was left with; 2 where none was chosen."""
+    kept = (project.blob(_STRIDE) or b"").decode("ascii", "replace")
+    return int(kept) if kept.isdecimal() and STRIDES[0] <= int(kept) <= STRIDES[1] else 2
 
 
 def _check_clip(project: Project, cache: FrameCache, clip: Path, moved: bool) -> None:

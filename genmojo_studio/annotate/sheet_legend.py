@@ -14,7 +14,7 @@ from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
 from genmojo_studio.annotate import returned
 from genmojo_studio.annotate.colours import point_colour
 from genmojo_studio.annotate.sheet_columns import Columns
-from genmojo_studio.annotate.sheet_painter import DECODED, MARKED, ROW, diamond, row_picture, segment_line
+from genmojo_studio.annotate.sheet_painter import DECODED, MARKED, ROW, diamond, row_picture, segment_line, tick
 from genmojo_studio.translate import tr
 
 _WIDE = 92
@@ -33,8 +33,8 @@ class SheetLegend(QDialog):
         for row, (sketch, words) in enumerate(self._signs()):
             sample = QLabel()
             sample.setPixmap(self._sample(sketch))
-            grid.addWidget(sample, row % 9, 2 * (row // 9))
-            grid.addWidget(QLabel(words), row % 9, 2 * (row // 9) + 1)
+            grid.addWidget(sample, row % 8, 2 * (row // 8))
+            grid.addWidget(QLabel(words), row % 8, 2 * (row // 8) + 1)
         hands = QGridLayout()
         hands.setHorizontalSpacing(12)
         for row, (what, does) in enumerate(_hands()):
@@ -66,6 +66,8 @@ class SheetLegend(QDialog):
             (self._keyed(BY_LINE), tr("filled by a straight line")),
             (self._keyed(BY_HOLD), tr("held where the first key is")),
             (self._returned(), tr("sent back by a reviewer")),
+            (self._tick(filled=False), tr("frame of the stride")),
+            (self._tick(filled=True), tr("frame of the stride in which every point is accepted")),
             (_band(MARKED), tr("run marked by [ and ]")),
             (_band(DECODED), tr("frames that are ready to be shown")),
         ]
@@ -101,6 +103,9 @@ class SheetLegend(QDialog):
             returned.paint_run(painter, QRectF(_WIDE / 4, 0, _WIDE / 2, ROW))
 
         return sketch
+
+    def _tick(self, *, filled: bool) -> Sketch:
+        return lambda painter: tick(painter, _WIDE / 2, ROW / 2 - 3, self.palette(), filled=filled)
 
     def _sample(self, sketch: Sketch) -> QPixmap:
         ratio = self.devicePixelRatioF()

@@ -19,11 +19,13 @@ from genmojo_studio.annotate.overlay import glyph_path
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.annotate.sheet_columns import Columns, Lines, apart, columns, segments
 from genmojo_studio.annotate.sheet_words import label
+from genmojo_studio.annotate.stride_marks import StrideMarks
 from genmojo_studio.annotate.time_view import Axis
 
 RULER, ROW, LABEL = 30, 18, 168
 MARKED = QColor(214, 142, 52)
 DECODED = QColor(90, 170, 110)
+_TICK = 8.0  # pixels between frames of the stride from which each has a sign of its own
 _SHORT = 6.0  # pixels; a shorter segment shows no line
 _STEP = 6.0  # pixels of a step of the line of a held segment
 
@@ -31,8 +33,8 @@ _STEP = 6.0  # pixels of a step of the line of a held segment
 class SheetPainter:
     """Rows and ruler of one session, over an axis of time."""
 
-    def __init__(self, session: Session) -> None:
-        self._session = session
+    def __init__(self, session: Session, marks: StrideMarks) -> None:
+        self._session, self._marks = session, marks
         self.lines = Lines(session)
         self._pictures: dict[int, QImage] = {}
         self._drawn: tuple[object, ...] = ()  # what all pictures depend on
@@ -87,7 +89,7 @@ class SheetPainter:
         painter.drawText(area, Qt.AlignmentFlag.AlignVCenter, code + clipped + mark)
 
     def ruler(self, painter: QPainter, axis: Axis, palette: QPalette) -> None:
-        """Frame numbers and ticks of the stride."""
+        """Frame numbers and frames of the stride."""
         painter.fillRect(QRectF(0, 0, axis.left + axis.width + 6, RULER), palette.window())
         painter.save()
         painter.setClipRect(QRectF(axis.left, 0, axis.width + 6, RULER))
@@ -96,6 +98,7 @@ class SheetPainter:
         for frame in range(int(axis.first // step) * step, int(axis.first + axis.span) + 1, step):
             if frame < self._session.annotation.frames:
                 painter.drawText(QPointF(axis.x_of(frame) + 2, 11), str(frame))
+        stride_ticks(painter, axis, self._marks, 14.0, palette)
         painter.restore()
 
     def over(self, painter: QPainter, axis: Axis) -> None:
@@ -127,6 +130,36 @@ class SheetPainter:
             colour = point_colour(self._session.place_of(info.object), info.number - 1)
             picture = self._pictures[track] = row_picture(seen, colour, (ink, ground), ratio)
         return picture
+
+
+def stride_ticks(painter: QPainter, axis: Axis, marks: StrideMarks, y: float, palette: QPalette) -> None:
+    """A ^ per frame of the stride, filled where everything is accepted; a band where they stand too close."""
+    frames, done = marks.frames(), marks.done()
+    shown = (frames + 1 > axis.first) & (frames < axis.first + axis.span)
+    frames, done = frames[shown], done[shown]
+    if not len(frames):
+        return
+    x = axis.left + (frames + 0.5 - axis.first) * axis.wide
+    if len(frames) < 2 or x[1] - x[0] >= _TICK:
+        for middle, filled in zip(x.tolist(), done.tolist(), strict=True):
+            tick(painter, middle, y, palette, filled=filled)
+        return
+    columns_of, starts = np.unique((x // 2).astype(int), return_index=True)
+    whole = np.minimum.reduceat(done, starts)
+    painter.fillRect(QRectF(x[0], y + 5, x[-1] - x[0], 1), palette.placeholderText())
+    for first, end in runs(columns_of[whole].tolist()):
+        painter.fillRect(QRectF(2 * first, y + 1, 2 * (end - first), 5), palette.text())
+
+
+def tick(painter: QPainter, x: float, y: float, palette: QPalette, *, filled: bool) -> None:
+    """A frame of the stride, its tip at (x, y)."""
+    painter.setPen(QPen((palette.text() if filled else palette.placeholderText()).color(), 1.2))
+    painter.setBrush(palette.text() if filled else Qt.BrushStyle.NoBrush)
+    corners = QPolygonF([QPointF(x - 3, y + 6), QPointF(x, y), QPointF(x + 3, y + 6)])
+    if filled:
+        painter.drawPolygon(corners)
+    else:
+        painter.drawPolyline(corners)
 
 
 def marked(session: Session) -> tuple[int, int] | None:

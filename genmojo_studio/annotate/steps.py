@@ -99,6 +99,7 @@ def _review_missing(annotation: Annotation, points: int, stride: int) -> str:
 
 SHORT = {  # what a narrow button says where the menu's text is too long
     "move.accept": mark("Accept, go on"),
+    "move.open_next": mark("Next open frame"),
     "move.worst": mark("Next doubt"),
     "move.bisect": mark("Middle of gap"),
     "move.loop": mark("Loop"),
@@ -184,7 +185,7 @@ STEPS = (
         mark("Refine"),
         mark("Step through the clip with Enter; put right what is wrong; N goes to the next doubt."),
         (
-            (mark("Step"), _ids("move.accept", "move.worst", "move.bisect")),
+            (mark("Step"), _ids("move.accept", "move.open_next", "move.worst", "move.bisect")),
             _STATES,
             (mark("Point"), _ids("point.key", "point.snap", "point.delete_key")),
             (

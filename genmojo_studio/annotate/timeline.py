@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QHelpEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QWheelEvent
+from PySide6.QtGui import QHelpEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap, QWheelEvent
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
 from genmojo_studio.annotate.session import Session
-from genmojo_studio.annotate.sheet_painter import LABEL
+from genmojo_studio.annotate.sheet_painter import LABEL, stride_ticks
+from genmojo_studio.annotate.stride_marks import StrideMarks
 from genmojo_studio.annotate.time_view import Axis, TimeView
 from genmojo_studio.translate import tr
 
@@ -36,16 +37,20 @@ class Timeline(QWidget):
         self,
         session: Session,
         view: TimeView,
+        marks: StrideMarks,
         across: Callable[[], tuple[float, float]],
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
-        self._session, self._view, self._across = session, view, across
+        self._session, self._view, self._marks, self._across = session, view, marks, across
+        self._still: QPixmap | None = None
+        self._drawn: Axis | None = None  # what it was drawn for
         self._drag: tuple[str, float, float, float] | None = None  # what is held, frame, first and end when it began
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setMouseTracking(True)
         self.setAccessibleName(tr("Timeline of the whole clip"))
         view.changed.connect(self.update)
+        marks.changed.connect(self._forget)
         session.frame_changed.connect(self.update)
 
     def sizeHint(self) -> QSize:
@@ -70,10 +75,10 @@ class Timeline(QWidget):
         first, end = self._view.cells()
         words = tr("frames {a} to {b} of {n}").format(a=first, b=end - 1, n=self._view.frames)
         painter.drawText(QRectF(8, 0, LABEL - 12, _LANE + _BAR), Qt.AlignmentFlag.AlignVCenter, words)
+        if self._still is None or self._drawn != axis:
+            self._still, self._drawn = self._make_still(axis), axis
+        painter.drawPixmap(0, 0, self._still)
         painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(palette.base())
-        painter.drawRect(QRectF(axis.left, 1, axis.width, _LANE - 2))
-        painter.drawRoundedRect(QRectF(axis.left, _LANE + 1, axis.width, _BAR - 3), 2, 2)
         tint = palette.placeholderText().color() if self._view.whole else palette.highlight().color()
         tint.setAlpha(110 if self._view.whole else 200)
         painter.setBrush(tint)
@@ -82,6 +87,22 @@ class Timeline(QWidget):
         painter.setPen(QPen(palette.highlight().color(), 2))
         painter.drawLine(QPointF(x, 0), QPointF(x, _LANE))
         painter.end()
+
+    def _make_still(self, axis: Axis) -> QPixmap:
+        """The lanes and the frames of the stride, which stay while only the frame changes."""
+        ratio = self.devicePixelRatioF()
+        still = QPixmap(self.size() * ratio)
+        still.setDevicePixelRatio(ratio)
+        still.fill(Qt.GlobalColor.transparent)
+        painter = QPainter(still)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, on=True)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(self.palette().base())
+        painter.drawRect(QRectF(axis.left, 1, axis.width, _LANE - 2))
+        painter.drawRoundedRect(QRectF(axis.left, _LANE + 1, axis.width, _BAR - 3), 2, 2)
+        stride_ticks(painter, axis, self._marks, 3.0, self.palette())
+        painter.end()
+        return still
 
     # ---- mouse
 
@@ -132,6 +153,11 @@ class Timeline(QWidget):
             self._view.scroll(-turned * self._view.span / 8)
         event.accept()
 
+    def changeEvent(self, event: QEvent) -> None:
+        """Other colours, another picture."""
+        super().changeEvent(event)
+        self._forget()
+
     def event(self, event: QEvent) -> bool:
         """Tool tips that tell the frame."""
         if event.type() == QEvent.Type.ToolTip and isinstance(event, QHelpEvent):
@@ -140,6 +166,10 @@ class Timeline(QWidget):
         return super().event(event)
 
     # ---- helpers
+
+    def _forget(self) -> None:
+        self._still = None
+        self.update()
 
     def _words(self, place: QPointF) -> str:
         if place.x() < LABEL:

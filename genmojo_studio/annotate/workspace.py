@@ -301,8 +301,7 @@ class AnnotateWorkspace(QMainWindow):
     def set_stride(self, stride: int) -> None:
         """Frames that Enter, comma and full stop move by."""
         if self.session is not None:
-            self.session.stride = stride
-            self.play.sheet.refresh()
+            self.session.set_stride(stride)
             self._steps_later.start()
 
     def show_position(self, x: float, y: float) -> None:

@@ -1220,12 +1220,12 @@
       <translation>Was ein Zug über die Zeitübersicht malt</translation>
     </message>
     <message>
-      <source>worst first</source>
-      <translation>schlechteste zuerst</translation>
+      <source>Order of the rows</source>
+      <translation type="unfinished" />
     </message>
     <message>
-      <source>Order the rows by suspicion</source>
-      <translation>Zeilen nach Verdacht ordnen</translation>
+      <source>Order of the rows of the dope sheet</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>Speed</source>
@@ -2000,6 +2000,14 @@
       <translation>aus der Prüfung zurückgegeben</translation>
     </message>
     <message>
+      <source>frame of the stride</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>frame of the stride in which every point is accepted</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>run marked by [ and ]</source>
       <translation>mit [ und ] markierte Strecke</translation>
     </message>
@@ -2028,6 +2036,38 @@
       <translation>Bild {n} ist</translation>
     </message>
     <message>
+      <source>rows by object</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Objects in their order, points by number</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>worst first</source>
+      <translation>schlechteste zuerst</translation>
+    </message>
+    <message>
+      <source>The most suspicious points first</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>fewest keys first</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Points with the fewest keys first; choose it again after more keys</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>longest gap first</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Points with the longest run without a key first; choose it again to sort anew</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>between the keys {a} and {b}, filled by: {mode}</source>
       <translation>zwischen den Schlüsseln {a} und {b}, gefüllt durch: {mode}</translation>
     </message>
@@ -2042,6 +2082,10 @@
     <message>
       <source>Accept, go on</source>
       <translation>Bestätigen</translation>
+    </message>
+    <message>
+      <source>Next open frame</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>Next doubt</source>
@@ -2282,6 +2326,14 @@
     <message>
       <source>{n} were sent back to their annotators.</source>
       <translation>{n} sind zur Nacharbeit zurückgegeben.</translation>
+    </message>
+    <message>
+      <source>Every frame of the stride is accepted.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Nothing is open that way; {n} frames of the stride still are.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>Stabilised strip of the active point</source>
@@ -4406,6 +4458,22 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Um die Schrittweite zurück.</translation>
     </message>
     <message>
+      <source>Next open frame of the stride</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Where not every point is accepted yet.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Previous open frame of the stride</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>The same, backwards.</source>
+      <translation>Dasselbe rückwärts.</translation>
+    </message>
+    <message>
       <source>Accept all points and go on</source>
       <translation>Alle Punkte annehmen und weiter</translation>
     </message>
@@ -4416,10 +4484,6 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Accept and go back</source>
       <translation>Annehmen und zurück</translation>
-    </message>
-    <message>
-      <source>The same, backwards.</source>
-      <translation>Dasselbe rückwärts.</translation>
     </message>
     <message>
       <source>Ten frames on</source>
@@ -5044,6 +5108,10 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>All frames; a double click there does it too.</source>
       <translation>Alle Bilder; dort tut es auch ein Doppelklick.</translation>
+    </message>
+    <message>
+      <source>Order of rows</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>What they mean, and what the mouse does there.</source>

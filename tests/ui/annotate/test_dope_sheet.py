@@ -191,3 +191,79 @@ def test_an_edit_draws_one_row_anew_and_a_step_none(refining, monkeypatch):
     session.do(keys.set_state(session.annotation, sheet.rows()[0], 3, 4, OCCLUDED))
     sheet.grab()
     assert len(drawn) == 1
+
+
+def test_stride_frames_are_marked_open_or_done_and_the_next_open_one_is_found(refining):
+    session, play = refining.session, refining.play
+    marks, tracks = play.marks, play.sheet.rows()
+    session.set_stride(3)
+    assert marks.frames()[:3].tolist() == [0, 3, 6] and marks.done().tolist() == [True] + [False] * (
+        len(marks.frames()) - 1
+    )
+    ruler = play.sheet.viewport().grab().toImage().copy(0, 13, play.sheet.viewport().width(), 9)
+    lane = play.timeline.grab().toImage()
+    for frame in (3, 6, 12):
+        session.do(keys.confirm(session.annotation, tracks, frame))
+    assert marks.done()[:6].tolist() == [True, True, True, False, True, False]
+    assert play.sheet.viewport().grab().toImage().copy(0, 13, ruler.width(), 9) != ruler
+    assert play.timeline.grab().toImage() != lane
+    session.go(0)
+    QTest.keyClick(refining.canvas, Qt.Key.Key_J)
+    assert session.frame == 9
+    QTest.keyClick(refining.canvas, Qt.Key.Key_J)
+    assert session.frame == 15
+    QTest.keyClick(refining.canvas, Qt.Key.Key_J, SHIFT)
+    assert session.frame == 9
+    session.undo()
+    assert not marks.done()[4]
+    session.do(edit_tracks.update_track(session.annotation, tracks[0], locked=True))
+    assert marks.done()[1] and not marks.done()[3]
+    for track in tracks:
+        session.do(edit_tracks.update_track(session.annotation, track, locked=True))
+    said = []
+    session.said.connect(said.append)
+    refining.table.trigger("annotate.move.open_next")
+    assert said == ["Every frame of the stride is accepted."] and marks.done().all()
+
+
+def test_the_stride_of_a_clip_survives_a_restart_and_is_no_step_of_the_history(refining, tmp_path, clip_folder):
+    from genmojo_studio.annotate.session import open_session
+
+    rows = len(refining.session.project.history())
+    refining.bar.stride.setValue(5)
+    assert refining.session.stride == 5 and len(refining.session.project.history()) == rows
+    path = refining.session.project.path
+    refining.close_clip()
+    refining.open_with(open_session(refining.state, path, "Ada"))
+    assert refining.session.stride == 5 and refining.bar.stride.value() == 5
+    refining.close_clip()
+    refining.open_with(open_session(refining.state, clip_folder, "Ada", tmp_path / "other.genmojo"))
+    assert refining.session.stride == 2 and refining.bar.stride.value() == 2, "each clip has a stride of its own"
+
+
+def test_rows_are_sorted_by_suspicion_keys_and_gap_and_stay_while_keys_are_placed(refining):
+    session, play = refining.session, refining.play
+    rows, sheet = play.sheet.rows(), play.sheet
+    plan = {rows[0]: (4, 8, 12, 20), rows[1]: (12,), rows[2]: (2, 4)}
+    for track, frames in plan.items():
+        for frame in frames:
+            xy = session.annotation.track(track).xy[frame].tolist()
+            session.do(keys.set_key(session.annotation, track, frame, xy))
+    refining.table.trigger("annotate.view.order_keys")
+    by_keys = sheet.rows()
+    counts = [len(session.annotation.keys(track)) for track in by_keys]
+    assert counts == sorted(counts) and by_keys[-1] == rows[0] and play.order.currentData() == "keys"
+    assert refining.table.is_checked("annotate.view.order_keys")
+    for frame in (9, 10, 11, 13):
+        xy = session.annotation.track(by_keys[0]).xy[frame].tolist()
+        session.do(keys.set_key(session.annotation, by_keys[0], frame, xy))
+    assert sheet.rows() == by_keys, "rows do not run away from under the mouse"
+    refining.table.trigger("annotate.view.order_gap")
+    by_gap = sheet.rows()
+    assert by_gap.index(rows[2]) < by_gap.index(rows[1]) < by_gap.index(rows[0])
+    session.suspicion = {rows[1]: np.full(session.annotation.frames, 0.9)}
+    play.order.setCurrentIndex(play.order.findData("suspicion"))
+    play.order.activated.emit(play.order.currentIndex())
+    assert sheet.rows()[0] == rows[1]
+    refining.table.trigger("annotate.view.order_object")
+    assert sheet.rows() == rows
