@@ -1221,11 +1221,11 @@
     </message>
     <message>
       <source>Order of the rows</source>
-      <translation type="unfinished" />
+      <translation>Reihenfolge der Zeilen</translation>
     </message>
     <message>
       <source>Order of the rows of the dope sheet</source>
-      <translation type="unfinished" />
+      <translation>Reihenfolge der Zeilen der Zeitübersicht</translation>
     </message>
     <message>
       <source>Speed</source>
@@ -2001,11 +2001,11 @@
     </message>
     <message>
       <source>frame of the stride</source>
-      <translation type="unfinished" />
+      <translation>Bild der Schrittweite</translation>
     </message>
     <message>
       <source>frame of the stride in which every point is accepted</source>
-      <translation type="unfinished" />
+      <translation>Bild der Schrittweite, in dem jeder Punkt angenommen ist</translation>
     </message>
     <message>
       <source>run marked by [ and ]</source>
@@ -2037,35 +2037,35 @@
     </message>
     <message>
       <source>rows by object</source>
-      <translation type="unfinished" />
+      <translation>Zeilen nach Objekt</translation>
     </message>
     <message>
       <source>Objects in their order, points by number</source>
-      <translation type="unfinished" />
+      <translation>Objekte in ihrer Reihenfolge, Punkte nach Nummer</translation>
     </message>
     <message>
       <source>worst first</source>
-      <translation>schlechteste zuerst</translation>
+      <translation>schlimmste zuerst</translation>
     </message>
     <message>
       <source>The most suspicious points first</source>
-      <translation type="unfinished" />
+      <translation>Die verdächtigsten Punkte zuerst</translation>
     </message>
     <message>
       <source>fewest keys first</source>
-      <translation type="unfinished" />
+      <translation>wenigste Schlüssel zuerst</translation>
     </message>
     <message>
       <source>Points with the fewest keys first; choose it again after more keys</source>
-      <translation type="unfinished" />
+      <translation>Punkte mit den wenigsten Schlüsseln zuerst; nach weiteren Schlüsseln noch einmal wählen</translation>
     </message>
     <message>
       <source>longest gap first</source>
-      <translation type="unfinished" />
+      <translation>längste Lücke zuerst</translation>
     </message>
     <message>
       <source>Points with the longest run without a key first; choose it again to sort anew</source>
-      <translation type="unfinished" />
+      <translation>Punkte mit der längsten Strecke ohne Schlüssel zuerst; zum Neusortieren noch einmal wählen</translation>
     </message>
     <message>
       <source>between the keys {a} and {b}, filled by: {mode}</source>
@@ -2085,7 +2085,7 @@
     </message>
     <message>
       <source>Next open frame</source>
-      <translation type="unfinished" />
+      <translation>Nächstes offene</translation>
     </message>
     <message>
       <source>Next doubt</source>
@@ -2329,11 +2329,11 @@
     </message>
     <message>
       <source>Every frame of the stride is accepted.</source>
-      <translation type="unfinished" />
+      <translation>Jedes Bild der Schrittweite ist angenommen.</translation>
     </message>
     <message>
       <source>Nothing is open that way; {n} frames of the stride still are.</source>
-      <translation type="unfinished" />
+      <translation>Dort ist nichts offen; {n} Bilder der Schrittweite sind es noch.</translation>
     </message>
     <message>
       <source>Stabilised strip of the active point</source>
@@ -4459,15 +4459,15 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     </message>
     <message>
       <source>Next open frame of the stride</source>
-      <translation type="unfinished" />
+      <translation>Nächstes offenes Bild der Schrittweite</translation>
     </message>
     <message>
       <source>Where not every point is accepted yet.</source>
-      <translation type="unfinished" />
+      <translation>Wo noch nicht jeder Punkt angenommen ist.</translation>
     </message>
     <message>
       <source>Previous open frame of the stride</source>
-      <translation type="unfinished" />
+      <translation>Voriges offenes Bild der Schrittweite</translation>
     </message>
     <message>
       <source>The same, backwards.</source>
@@ -5111,7 +5111,7 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     </message>
     <message>
       <source>Order of rows</source>
-      <translation type="unfinished" />
+      <translation>Reihenfolge der Zeilen</translation>
     </message>
     <message>
       <source>What they mean, and what the mouse does there.</source>
