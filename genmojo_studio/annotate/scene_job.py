@@ -79,14 +79,12 @@ class SceneJob(QObject):
         self._process.start()
 
     def cancel(self) -> None:
-        """End the process; nothing is kept."""
+        """End the process at once; nothing is kept. Asked politely it would finish its step and write its scene."""
         self._cancelled = True
         self._tick.stop()
         if self._process.state() != QProcess.ProcessState.NotRunning:
-            self._process.terminate()
-            if not self._process.waitForFinished(3000):
-                self._process.kill()
-                self._process.waitForFinished(2000)
+            self._process.kill()
+            self._process.waitForFinished(2000)
 
     def _tell(self) -> None:
         self.progressed.emit(min(self._clock.elapsed() / 1000 / self._expected, 0.99))

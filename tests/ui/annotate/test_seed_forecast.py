@@ -6,11 +6,13 @@ Not covered: how good the guesses are.
 import numpy as np
 import pytest
 from annotating import choose_all, place_points
+from PySide6.QtCore import QProcess
 from shiboken6 import isValid
 
 from genmojo_core.store.npz import write_tracks
 from genmojo_core.trackers.cotracker import HUB_MODELS, window_seconds
 from genmojo_core.tracks.model import VISIBLE, PointTracks
+from genmojo_studio.annotate.scene_job import SceneJob
 from genmojo_studio.annotate.seed_dialog import SeedDialog
 from genmojo_studio.annotate.seed_forecast import Speeds, duration, foretold, rest, so_far
 from genmojo_studio.settings import Settings
@@ -98,3 +100,19 @@ def test_what_a_run_took_is_remembered_and_told_meanwhile(workspace, qtbot, dial
     assert "by what this machine needed before" in again.forecast.text()
     assert "a moment" in again.forecast.text(), "what was matched is not matched again"
     again.reject()
+
+
+def test_a_cancelled_optimisation_ends_at_once_and_is_not_asked_to_finish(qtbot, tmp_path):
+    script, said = tmp_path / "slow.py", tmp_path / "asked.txt"
+    script.write_text(
+        "import signal, time\n"
+        f"signal.signal(signal.SIGTERM, lambda *_: open({str(said)!r}, 'a').write('asked'))\n"
+        f"open({str(tmp_path / 'ready.txt')!r}, 'w').close()\n"
+        "while True: time.sleep(0.05)\n"
+    )
+    job = SceneJob(tmp_path, tmp_path / "s.h5", 60.0, 60.0, {})
+    job._process.setArguments([str(script)])
+    job.start()
+    qtbot.waitUntil((tmp_path / "ready.txt").exists, timeout=30_000)
+    job.cancel()
+    assert job._process.state() == QProcess.ProcessState.NotRunning and not said.exists()
