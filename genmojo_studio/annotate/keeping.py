@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import UTC, datetime
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer, QUrl, Signal
@@ -9,7 +10,7 @@ from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QFileDialog, QInputDialog, QMessageBox, QWidget
 
 from genmojo_core.errors import GenmojoError
-from genmojo_core.store import project_file
+from genmojo_core.store import audit, project_file
 from genmojo_studio import notify
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.translate import fault, tr
@@ -26,6 +27,7 @@ class Keeping(QObject):
     def __init__(self, session: Session, parent: QWidget) -> None:
         super().__init__(parent)
         self._s, self._w = session, parent
+        self._why = ""  # the disk's last word
         self._again = QTimer(self, interval=RETRY_MS)
         self._again.timeout.connect(self._retry)
         session.unsaved.connect(self._failed)
@@ -36,12 +38,14 @@ class Keeping(QObject):
         project = self._s.project
         while not project.wait(10.0):
             box = QMessageBox(QMessageBox.Icon.Warning, tr("Not everything is saved"),
-                              tr("{n} edits could not be written. Free some space and try again, or save a copy "
-                                 "elsewhere.").format(n=project.unsaved()), parent=self._w)  # fmt: skip
+                              tr("Edits that could not be written: {n}.").format(n=project.unsaved()), parent=self._w)  # fmt: skip
+            box.setInformativeText(self._why or tr("Free some space and try again, or save a copy elsewhere."))
             retry = box.addButton(tr("Try again"), QMessageBox.ButtonRole.AcceptRole)
-            copy = box.addButton(tr("Save a copy…"), QMessageBox.ButtonRole.ActionRole)
+            copy = box.addButton(tr("Save a copy…"), QMessageBox.ButtonRole.AcceptRole)
             lose = box.addButton(tr("Lose them"), QMessageBox.ButtonRole.DestructiveRole)
-            box.addButton(QMessageBox.StandardButton.Cancel)
+            stay = box.addButton(QMessageBox.StandardButton.Cancel)
+            box.setDefaultButton(retry)
+            box.setEscapeButton(stay)
             box.exec()
             if box.clickedButton() is retry:
                 project.retry()
@@ -73,11 +77,9 @@ class Keeping(QObject):
         if not copies:
             self._s.said.emit(tr("There is no backup yet: naming a moment (Ctrl+S) makes one."))
             return None
-        titles = [f"{c.stem[:4]}-{c.stem[4:6]}-{c.stem[6:8]} {c.stem[9:11]}:{c.stem[11:13]} UTC" for c in copies]
-        numbered = [f"{n + 1}: {title}" for n, title in enumerate(titles)]
-        chosen, given = QInputDialog.getItem(
-            self._w, tr("Backup copies"), tr("Open as a new project"), numbered, 0, False
-        )
+        numbered = [f"{n + 1}: {_taken(copy.stem)}" for n, copy in enumerate(copies)]
+        about = tr("A copy is made at every named moment. It is opened as a new project; this one stays as it is.")
+        chosen, given = QInputDialog.getItem(self._w, tr("Open a backup copy"), about, numbered, 0, False)
         if not given:
             return None
         source = copies[numbered.index(chosen)]
@@ -96,7 +98,8 @@ class Keeping(QObject):
 
     def _failed(self, error: GenmojoError) -> None:
         self._again.start()
-        self.troubled.emit(fault(error))
+        self._why = fault(error)
+        self.troubled.emit(self._why)
         self._s.said.emit(fault(error))
 
     def _retry(self) -> None:
@@ -106,6 +109,15 @@ class Keeping(QObject):
         if self._again.isActive() and not self._s.project.unsaved():
             self._again.stop()
             self.troubled.emit("")
+
+
+def _taken(stem: str) -> str:
+    """When a backup copy was made, by the name of its file, in local time; the name where it tells none."""
+    try:
+        made = datetime.strptime(stem, "%Y%m%dT%H%M%S%f").replace(tzinfo=UTC)
+    except ValueError:
+        return stem
+    return audit.local(made.isoformat())
 
 
 def found_clip(project: Path, parent: QWidget) -> Path | None:

@@ -30,6 +30,7 @@ from genmojo_core.tracks.edits import set_meta
 from genmojo_studio.annotate.candidates import Figures
 from genmojo_studio.annotate.canvas import Tool
 from genmojo_studio.annotate.colours import object_colour
+from genmojo_studio.annotate.eliding import Distinct
 from genmojo_studio.annotate.masks import Purpose
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.translate import decimal, mark, tr
@@ -229,7 +230,8 @@ class ObjectsPage(QWidget):
         self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.table.setTabKeyNavigation(False)
         self.table.setWordWrap(False)
-        self.table.setTextElideMode(Qt.TextElideMode.ElideMiddle)  # names often differ in a number at their end
+        self.table.setTextElideMode(Qt.TextElideMode.ElideMiddle)
+        self.table.setItemDelegateForColumn(0, Distinct(self.table))
         self.table.setAccessibleName(tr("Candidate objects"))
         self.table.itemChanged.connect(self._renamed)
         self.table.itemSelectionChanged.connect(self._picked)

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTreeWidget, QTree
 
 from genmojo_core.tracks.annotation import CONFIRMED, KEY, UNCERTAIN
 from genmojo_studio.annotate.colours import object_colour, point_colour
+from genmojo_studio.annotate.eliding import Distinct
 from genmojo_studio.annotate.overlay import glyph_path
 from genmojo_studio.annotate.session import Session
 from genmojo_studio.translate import tr
@@ -66,7 +67,8 @@ class TrackTree(QTreeWidget):
             self.header().setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
         self.setIndentation(14)
         self.setUniformRowHeights(True)
-        self.setTextElideMode(Qt.TextElideMode.ElideMiddle)  # names often differ at their ends
+        self.setTextElideMode(Qt.TextElideMode.ElideMiddle)
+        self.setItemDelegateForColumn(0, Distinct(self))
         self.setIconSize(QSize(16, 16))
         self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.setAccessibleName(tr("Objects and points"))

@@ -392,6 +392,10 @@
       <translation>Ein anderer Zweig: {n} Schritte</translation>
     </message>
     <message>
+      <source>A copy is made at every named moment. It is opened as a new project; this one stays as it is.</source>
+      <translation>Bei jedem benannten Stand entsteht eine Kopie. Sie wird als neues Projekt geöffnet; dieses bleibt, wie es ist.</translation>
+    </message>
+    <message>
       <source>The clip was moved</source>
       <translation>Der Clip wurde verschoben</translation>
     </message>
@@ -408,12 +412,8 @@
       <translation>Kopie des Projekts speichern</translation>
     </message>
     <message>
-      <source>Backup copies</source>
-      <translation>Sicherungskopien</translation>
-    </message>
-    <message>
-      <source>Open as a new project</source>
-      <translation>Als neues Projekt öffnen</translation>
+      <source>Open a backup copy</source>
+      <translation>Sicherungskopie öffnen</translation>
     </message>
     <message>
       <source>The clip's folder</source>
@@ -444,12 +444,16 @@
       <translation>{name} liegt nicht mehr unter {path}. Wo ist es?</translation>
     </message>
     <message>
+      <source>Free some space and try again, or save a copy elsewhere.</source>
+      <translation>Platz schaffen und noch einmal versuchen, oder anderswo eine Kopie sichern.</translation>
+    </message>
+    <message>
       <source>The clip's video</source>
       <translation>Video des Clips</translation>
     </message>
     <message>
-      <source>{n} edits could not be written. Free some space and try again, or save a copy elsewhere.</source>
-      <translation>{n} Änderungen konnten nicht geschrieben werden. Platz schaffen und erneut versuchen, oder eine Kopie anderswo speichern.</translation>
+      <source>Edits that could not be written: {n}.</source>
+      <translation>Änderungen, die nicht geschrieben werden konnten: {n}.</translation>
     </message>
     <message>
       <source>Seconds at work come from the log; a pause counts as one minute at most. A key belongs to whoever placed or moved it last. What is left and its time are for the stride set above the frame.</source>
@@ -2045,7 +2049,7 @@
     </message>
     <message>
       <source>worst first</source>
-      <translation>schlimmste zuerst</translation>
+      <translation>schlechteste zuerst</translation>
     </message>
     <message>
       <source>The most suspicious points first</source>

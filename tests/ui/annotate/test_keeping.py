@@ -3,10 +3,12 @@
 import shutil
 import sqlite3
 from contextlib import closing
+from datetime import UTC, datetime
 
 import pytest
 from annotating import choose_all, place_points
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMessageBox
 
 from genmojo_core.errors import GenmojoError
@@ -81,6 +83,37 @@ def test_what_the_disk_does_not_take_goes_into_a_copy(workspace, qtbot, tmp_path
     assert project_file.load(copy).annotation.digest() == digest
     workspace.session.project.retry()
     assert workspace.session.project.wait(60)
+
+
+def test_the_question_names_the_fault_and_escape_loses_nothing(workspace, qtbot):
+    place_on_full_disk(workspace, qtbot)
+    seen = []
+
+    def look():
+        box = QApplication.activeModalWidget()
+        if not isinstance(box, QMessageBox):
+            QTimer.singleShot(50, look)
+            return
+        seen.extend([box.informativeText(), box.defaultButton().text(), box.escapeButton().text()])
+        QTest.keyClick(box, Qt.Key.Key_Escape)
+
+    QTimer.singleShot(50, look)
+    assert not workspace.hands.keeping.may_close()
+    assert "disk is full" in seen[0] and seen[1] == "Try again" and seen[2].replace("&", "") == "Cancel"
+    free_disk(workspace)
+    workspace.session.project.retry()
+
+
+def test_backups_are_told_by_local_time(workspace, monkeypatch):
+    workspace.session.project.checkpoint("half way")
+    (copy,) = project_file.backups(workspace.session.project.path)
+    copy.with_name("kept by hand.genmojo").write_bytes(copy.read_bytes())
+    asked = []
+    monkeypatch.setattr("PySide6.QtWidgets.QInputDialog.getItem", lambda *a, **k: (asked.append(a), ("", False))[1])
+    workspace.table.trigger("annotate.file.backup")
+    made = datetime.strptime(copy.stem, "%Y%m%dT%H%M%S%f").replace(tzinfo=UTC).astimezone()
+    assert "stays as it is" in asked[0][2]
+    assert asked[0][3][0] == "1: kept by hand" and f"{made:%Y-%m-%d %H:%M:%S}" in asked[0][3][1]
 
 
 def test_a_copy_and_a_backup_are_projects_of_their_own(workspace, qtbot, tmp_path, monkeypatch):
