@@ -21,11 +21,12 @@ from typing import IO
 import numpy as np
 
 from genmojo_core.errors import GenmojoError
-from genmojo_core.store import project_file
+from genmojo_core.store import project_file, project_news
 from genmojo_core.store.edit_codec import encode_annotation, encode_edit, encode_proposal
 from genmojo_core.store.project_db import Statement, Writer, take_lock
 from genmojo_core.store.project_file import ClipInfo, Loaded
 from genmojo_core.store.project_log import Row
+from genmojo_core.store.project_news import News
 from genmojo_core.store.safe import json_text
 from genmojo_core.tracks.annotation import Proposal
 from genmojo_core.tracks.edits import Edit, ObjectChange, TrackChange
@@ -60,13 +61,13 @@ class Project:
         self.annotation, self.log, self.info = loaded.annotation, loaded.log, loaded.info
         self.saved: Callable[[int, float], None] | None = None
         self.failed: Callable[[GenmojoError], None] | None = None
-        self.read_only = lock is None
+        self.read_only = True
         self._writer: Writer | None = None
-        self._lock = lock
+        self._lock: IO[bytes] | None = None
         self._recent: dict[int, Edit] = {}
         self._snapshot_at = loaded.snapshot
         if lock is not None:
-            self._writer = Writer(path, lambda error: self.failed(error) if self.failed else None)
+            self._begin_writing(lock)
 
     @classmethod
     def create(cls, path: str | Path, info: ClipInfo, person: str = "") -> Project:
@@ -75,7 +76,7 @@ class Project:
         if file.exists():
             raise GenmojoError("io", "exists already", str(path), "open it, or choose another name")
         project_file.create(file, info)
-        return cls(file, project_file.load(file), person, take_lock(file))
+        return cls(file, project_file.load(file), person, take_lock(file, person))
 
     @classmethod
     def open(cls, path: str | Path, person: str = "", backup: bool = True) -> Project:
@@ -86,7 +87,7 @@ class Project:
         file = Path(path)
         if not file.is_file():
             raise GenmojoError("io", "does not exist or is no file", str(path), "check the name")
-        lock = take_lock(file)
+        lock = take_lock(file, person)
         try:
             loaded = project_file.load(file)
             if lock is not None and backup and len(loaded.log):
@@ -215,6 +216,51 @@ class Project:
         if self._writer is not None:
             sql = "UPDATE frames SET sha256 = ? WHERE position = ?"
             self._writer.put([(sql, (digest, frame)) for frame, digest in found.items()])
+
+    def follow(self, news: News) -> None:
+        """Do here what another program did; listeners are told, as of edits of one's own.
+
+        Args:
+            news: what follows the log as it stands (`project_news.read`); older news are left alone.
+        """
+        if not self.read_only or news.rows[0].seq != len(self.log) + 1:
+            return
+        for seq, edit in news.edits.items():
+            self._remember(seq, edit)
+        for row in news.rows:
+            if row.verb == "do":
+                news.edits[row.seq].do(self.annotation)
+            elif row.verb == "move":
+                back, forth = self.log.path(row.parent)
+                edits = self._edits([*back, *forth])
+                for seq in back:
+                    edits[seq].undo(self.annotation)
+                for seq in forth:
+                    edits[seq].do(self.annotation)
+            self.log.follow(row)
+        self.log.set_chain(news.chain)
+        for track, proposal in news.proposals:
+            if track in self.annotation.tracks:
+                self.annotation.propose(track, proposal)
+
+    def take_over(self) -> bool:
+        """Write from now on, if no other program does any more; what that one wrote last is followed first."""
+        lock = take_lock(self.path, self.person) if self.read_only else None
+        if lock is None:
+            return False
+        try:
+            news = project_news.read(self.path, len(self.log), self.log.chain)
+            if news is not None:
+                self.follow(news)
+        except GenmojoError:
+            lock.close()
+            raise
+        self._begin_writing(lock)
+        return True
+
+    def _begin_writing(self, lock: IO[bytes]) -> None:
+        self._lock, self.read_only = lock, False
+        self._writer = Writer(self.path, lambda error: self.failed(error) if self.failed else None)
 
     def close(self) -> None:
         """Write what waits, leave one file, release the lock."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import queue
+import socket
 import sqlite3
 import threading
 from collections.abc import Callable, Sequence
@@ -17,6 +18,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from genmojo_core.errors import GenmojoError
+from genmojo_core.store.safe import json_text, parse_json
 
 VERSION = 1
 _APPLICATION = 0x474D4A4F  # "GMJO"
@@ -210,8 +212,37 @@ def _leave_one_file(connection: sqlite3.Connection) -> None:
         connection.execute("PRAGMA journal_mode=DELETE")
 
 
-def take_lock(path: Path) -> IO[bytes] | None:
-    """The lock of a project, held until the returned file is closed or the process ends; None if another has it."""
+@dataclass(frozen=True)
+class Holder:
+    """Who has a project open for writing: a name, "" if none was given, process and machine."""
+
+    person: str
+    pid: int
+    host: str
+
+
+def holder(path: Path) -> Holder | None:
+    """Who took a project's lock last; None where that is not written."""
+    try:
+        told = parse_json(path.with_name(path.name + ".lock").read_bytes()[1:4096], str(path))
+        return Holder(str(told["person"]), int(told["pid"]), str(told["host"]))
+    except (OSError, GenmojoError, KeyError, TypeError, ValueError):
+        return None  # nobody, or a program that does not write it
+
+
+def _write_holder(stream: IO[bytes], person: str) -> None:
+    """Beside the lock's own byte; a full disk must not keep anybody from opening."""
+    with suppress(OSError):
+        stream.truncate(0)
+        stream.write(b" " + json_text({"person": person, "pid": os.getpid(), "host": socket.gethostname()}).encode())
+        stream.flush()
+
+
+def take_lock(path: Path, person: str | None = "") -> IO[bytes] | None:
+    """The lock of a project, held until the returned file is closed or the process ends; None if another has it.
+
+    Whoever reads meanwhile is told of `person` (None: of nobody, for one who only asks whether it is free).
+    """
     try:
         stream = open(path.with_name(path.name + ".lock"), "a+b")  # noqa: SIM115 (closed by the project)
     except OSError:
@@ -229,4 +260,6 @@ def take_lock(path: Path) -> IO[bytes] | None:
     except OSError:
         stream.close()
         return None
+    if person is not None:
+        _write_holder(stream, person)
     return stream

@@ -83,6 +83,11 @@ class Log:
                 self._next[self._edits[seq].parent] = seq
             self.head = row.parent
 
+    @property
+    def chain(self) -> bytes:
+        """The hash of the last row."""
+        return self._chain
+
     def set_chain(self, value: bytes) -> None:
         """The hash of the last row."""
         self._chain = value

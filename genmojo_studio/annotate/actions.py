@@ -190,6 +190,8 @@ _REST = (
     _action("file.export", "Export tracks…", "Ctrl+E", "The same formats."),
     _action("file.copy", "Save a copy of the project…", "", "To hand it over, or to keep it elsewhere.",
             separator=True),
+    _action("file.take_over", "Take over writing", "", "Edits a project that another program had open, once that has "
+            "left it."),
     _action("file.backup", "Open a backup copy…", "", "As a new project; this one stays as it is."),
     _action("file.folder", "Show the project's folder", "", "Where the project of this clip lies."),
     _action("file.tour", "Tour of the annotator", "", "Ten steps on a clip made on the spot."),

@@ -12,6 +12,7 @@ from genmojo_studio.annotate import steps, verbs
 from genmojo_studio.annotate.accepting import Accepting
 from genmojo_studio.annotate.actions import KEYED
 from genmojo_studio.annotate.dialogs import Dialogs
+from genmojo_studio.annotate.following import Following
 from genmojo_studio.annotate.going import Going
 from genmojo_studio.annotate.keeping import Keeping
 from genmojo_studio.annotate.object_verbs import ObjectVerbs
@@ -87,6 +88,7 @@ class Hands:
         self.dialogs = Dialogs(workspace)
         self.keeping = Keeping(self._s, workspace)
         self.keeping.troubled.connect(workspace.bar.show_trouble)
+        self.following = Following(self._s, workspace.bar)
         self.accepting = Accepting(self._s, workspace.screen_link, workspace.work.tracker)
         w = workspace
         w.canvas.picked.connect(self._s.select_track)
@@ -192,6 +194,7 @@ class Hands:
             "file.import": self.dialogs.import_tracks,
             "file.export": self.dialogs.export_tracks,
             "file.copy": self.keeping.save_copy,
+            "file.take_over": self.following.take_over,
             "file.backup": self._open_backup,
             "file.folder": self.keeping.show_folder,
             "file.tour": w.start_tour,
@@ -218,6 +221,8 @@ class Hands:
                                        "move.bisect"))  # fmt: skip
         if name.startswith("object."):
             return lambda: self._w.session is s and s.sketching
+        if name == "file.take_over":
+            return lambda: self._w.session is s and self.following.free
         if name in ("track.seed", "track.scene"):
             return lambda: self._w.session is s and bool(s.annotation.tracks)
         if name.startswith(("point.nudge", "point.push")):

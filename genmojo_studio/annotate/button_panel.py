@@ -206,6 +206,11 @@ class StepBar(QWidget):
         self.saved.setMinimumWidth(90)
         self.saved.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         row.addWidget(self.saved)
+        self.take_over = QToolButton()
+        self.take_over.setText(tr("Take over writing"))
+        self.take_over.setObjectName("annotate.file.take_over")  # the action that does it
+        self.take_over.setVisible(False)
+        row.addWidget(self.take_over)
 
     def show_trouble(self, why: str) -> None:
         """Edits wait for the disk, and why; "" when they are on it."""
@@ -214,6 +219,14 @@ class StepBar(QWidget):
         self.saved.setProperty("role", "bad" if why else "dim")
         for polish in (self.saved.style().unpolish, self.saved.style().polish):  # the theme looks at roles once
             polish(self.saved)
+
+    def show_reader(self, sentence: str, whole: str = "", *, free: bool) -> None:
+        """Somebody else writes, or nobody does any more and this program may (`free`); `whole`: with all names."""
+        self.saved.setText(sentence)
+        self.saved.setToolTip(
+            (whole or sentence) + "\n" + tr("What they do is shown here within a second; nothing can be changed here.")
+        )
+        self.take_over.setVisible(free)
 
     def show_step(self, place: int, missing: list[str]) -> None:
         """Mark a step as the current one; `missing` says per step what it still lacks."""

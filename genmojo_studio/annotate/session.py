@@ -90,6 +90,7 @@ class Session(QObject):
         self.reviewing = False  # whether a person decides about tracks (step 4)
         self._points: dict[tuple[int, int], int] = {}
         self._looked_up = -1
+        self.closed = False
         self.holding = False  # whether a point is being dragged: until it is let go its frame stands still
         self.view: Callable[[], View] = lambda: None  # the part of the frame on show
         self._back: list[Place] = []  # where one was before jumps
@@ -271,6 +272,7 @@ class Session(QObject):
 
     def close(self) -> None:
         """Write everything, let go of files and threads."""
+        self.closed = True
         self._unsubscribe()
         self.project.saved = self.project.failed = None
         if self._touched in self.annotation.listeners:

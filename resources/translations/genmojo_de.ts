@@ -188,6 +188,10 @@
       <translation>Schrittweite in Bildern</translation>
     </message>
     <message>
+      <source>Take over writing</source>
+      <translation>Schreiben übernehmen</translation>
+    </message>
+    <message>
       <source>stride</source>
       <translation>Schrittweite</translation>
     </message>
@@ -198,6 +202,10 @@
     <message>
       <source>saved</source>
       <translation>gespeichert</translation>
+    </message>
+    <message>
+      <source>What they do is shown here within a second; nothing can be changed here.</source>
+      <translation>Was dort geschieht, steht binnen einer Sekunde hier; hier kann nichts geändert werden.</translation>
     </message>
     <message>
       <source>This step is done.</source>
@@ -250,6 +258,38 @@
     <message>
       <source>No points yet: place them in step 2.</source>
       <translation>Noch keine Punkte: setzen Sie sie in Schritt 2.</translation>
+    </message>
+    <message>
+      <source>read only: {name} is editing ({pid}/{host})</source>
+      <translation>nur lesbar: {name} bearbeitet ({pid}/{host})</translation>
+    </message>
+    <message>
+      <source>another program</source>
+      <translation>ein anderes Programm</translation>
+    </message>
+    <message>
+      <source>read only</source>
+      <translation>nur lesen</translation>
+    </message>
+    <message>
+      <source>You are writing this project now.</source>
+      <translation>Ab jetzt schreibst du dieses Projekt.</translation>
+    </message>
+    <message>
+      <source>Another program was faster: the project stays read only here.</source>
+      <translation>Ein anderes Programm war schneller: hier bleibt das Projekt nur lesbar.</translation>
+    </message>
+    <message>
+      <source>read only: not up to date</source>
+      <translation>nur lesbar: nicht aktuell</translation>
+    </message>
+    <message>
+      <source>somebody</source>
+      <translation>jemand</translation>
+    </message>
+    <message>
+      <source>read only: {name} has left</source>
+      <translation>nur lesbar: {name} ist fort</translation>
     </message>
     <message>
       <source>No more keys that way.</source>
@@ -2710,10 +2750,6 @@
     <message>
       <source>Open a clip to annotate it (Ctrl+O).</source>
       <translation>Öffnen Sie einen Clip, um ihn zu annotieren (Strg+O).</translation>
-    </message>
-    <message>
-      <source>read only</source>
-      <translation>nur lesen</translation>
     </message>
     <message>
       <source>Information</source>
@@ -5298,6 +5334,10 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Zum Weitergeben oder um sie anderswo aufzubewahren.</translation>
     </message>
     <message>
+      <source>Edits a project that another program had open, once that has left it.</source>
+      <translation>Bearbeitet ein Projekt, das ein anderes Programm offen hatte, sobald dieses es verlassen hat.</translation>
+    </message>
+    <message>
       <source>Open a backup copy…</source>
       <translation>Sicherungskopie öffnen…</translation>
     </message>
@@ -7638,6 +7678,18 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>schaffen Sie Platz</translation>
     </message>
     <message>
+      <source>cannot be read ({error})</source>
+      <translation>kann nicht gelesen werden ({error})</translation>
+    </message>
+    <message>
+      <source>open it again</source>
+      <translation>öffne es neu</translation>
+    </message>
+    <message>
+      <source>holds another history by now</source>
+      <translation>enthält inzwischen einen anderen Verlauf</translation>
+    </message>
+    <message>
       <source>is truncated or damaged</source>
       <translation>ist abgeschnitten oder beschädigt</translation>
     </message>
@@ -8248,10 +8300,6 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>put it right in the file</source>
       <translation>berichtige es in der Datei</translation>
-    </message>
-    <message>
-      <source>cannot be read ({error})</source>
-      <translation>kann nicht gelesen werden ({error})</translation>
     </message>
     <message>
       <source>gives {key} to {id}, which clashes with {other}</source>
