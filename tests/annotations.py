@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from genmojo_core.tracks import edit_tracks, keys
+from genmojo_core.tracks import edit_tracks, exchange, keys
 from genmojo_core.tracks.annotation import REASONS, TRACKER, Annotation, Cells, ObjectInfo
 from genmojo_core.tracks.edits import Edit, set_meta
 
@@ -42,7 +42,7 @@ def random_edit(annotation: Annotation, rng: np.random.Generator) -> Edit:
     if kind == 7:
         return solution(annotation, track, np.arange(t, last + 1), rng)
     if kind == 8:
-        return edit_tracks.swap(annotation, track, int(rng.choice(tracks)), t, last)
+        return exchange.swap(annotation, track, int(rng.choice(tracks)), t, last)
     if kind == 9:
         found = annotation.keys(track)
         if not len(found):

@@ -14,7 +14,7 @@ import numpy as np
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.safe import json_text, parse_json
 from genmojo_core.tracks.annotation import Annotation, Cells, ObjectInfo, Proposal, TrackInfo
-from genmojo_core.tracks.edits import CellsChange, Change, Edit, MetaChange, ObjectChange, TrackChange
+from genmojo_core.tracks.edits import CellsChange, Change, Edit, MetaChange, ObjectChange, ProposalChange, TrackChange
 
 MAX_BYTES = 1 << 30  # of one unpacked record
 _DTYPES = {"f4": np.float32, "u1": np.uint8, "i4": np.int32}
@@ -66,13 +66,12 @@ def decode_annotation(data: bytes) -> Annotation:
 
 def encode_proposal(proposal: Proposal) -> bytes:
     """A tracker's proposal for one track."""
-    arrays = {"xy": proposal.xy.astype(np.float32), "state": proposal.state, "conf": proposal.conf.astype(np.float32)}
-    return _pack({"tracker": proposal.tracker, **{name: _array_out(a) for name, a in arrays.items()}})
+    return _pack(_proposal_out(proposal))
 
 
 def decode_proposal(data: bytes) -> Proposal:
     """The proposal `encode_proposal` wrote. Raises GenmojoError("corrupt")."""
-    return _unpack(data, lambda r: Proposal(str(r["tracker"]), *(_array_in(r[k]) for k in ("xy", "state", "conf"))))
+    return _unpack(data, _proposal_in)
 
 
 def object_in(record: dict[str, Any]) -> ObjectInfo:
@@ -100,6 +99,10 @@ def _change_out(change: Change) -> dict[str, Any]:
                 "before": _cells_out(change.before), "after": _cells_out(change.after)}  # fmt: skip
     if isinstance(change, MetaChange):
         return {"what": "meta", "id": change.key, "before": change.before, "after": change.after}
+    if isinstance(change, ProposalChange):
+        sides = (None if v is None else _proposal_out(v) for v in (change.before, change.after))
+        return {"what": "proposal", "id": change.track, "tracker": change.tracker,
+                **dict(zip(("before", "after"), sides, strict=True))}  # fmt: skip
     before, after = (None if v is None else asdict(v) for v in (change.before, change.after))
     what = "track" if isinstance(change, TrackChange) else "object"
     return {"what": what, "id": change.id, "before": before, "after": after}
@@ -115,7 +118,19 @@ def _change_in(record: dict[str, Any]) -> Change:
         return TrackChange(int(record["id"]), *(None if v is None else track_in(v) for v in (before, after)))
     if what == "object":
         return ObjectChange(int(record["id"]), *(None if v is None else object_in(v) for v in (before, after)))
+    if what == "proposal":
+        return ProposalChange(int(record["id"]), str(record["tracker"]),
+                              *(None if v is None else _proposal_in(v) for v in (before, after)))  # fmt: skip
     raise ValueError(f"unknown change {what}")
+
+
+def _proposal_out(proposal: Proposal) -> dict[str, Any]:
+    arrays = {"xy": proposal.xy.astype(np.float32), "state": proposal.state, "conf": proposal.conf.astype(np.float32)}
+    return {"tracker": proposal.tracker, **{name: _array_out(a) for name, a in arrays.items()}}
+
+
+def _proposal_in(record: dict[str, Any]) -> Proposal:
+    return Proposal(str(record["tracker"]), *(_array_in(record[k]) for k in ("xy", "state", "conf")))
 
 
 def _cells_out(cells: Cells) -> list[dict[str, Any]]:

@@ -29,7 +29,7 @@ from genmojo_core.store.project_log import Row
 from genmojo_core.store.project_news import News
 from genmojo_core.store.safe import json_text
 from genmojo_core.tracks.annotation import Proposal
-from genmojo_core.tracks.edits import Edit, ObjectChange, TrackChange
+from genmojo_core.tracks.edits import Edit, ObjectChange, ProposalChange, TrackChange
 
 _SNAPSHOT_EVERY = 300  # edits after which opening gets a shortcut
 _CACHE = 500  # edits whose data stay in memory
@@ -167,7 +167,7 @@ class Project:
         """Keep a tracker's proposal, untouched, beside the track."""
         self._check_writable()
         self.annotation.propose(track, proposal)
-        self.put_blob(f"proposal:{track}:{proposal.tracker}", encode_proposal(proposal))
+        self.put_blob(_proposal_name(track, proposal.tracker), encode_proposal(proposal))
 
     def put_blob(self, name: str, data: bytes) -> None:
         """Keep any bytes under a name (time sheets, layouts), outside the history."""
@@ -331,10 +331,22 @@ class Project:
             raise GenmojoError("io", "is open in another program", str(self.path), "close it there, or save a copy")
 
 
+def _proposal_name(track: int, tracker: str) -> str:
+    """The blob that keeps a proposal."""
+    return f"proposal:{track}:{tracker}"
+
+
 def _tables(edit: Edit, undone: bool = False) -> list[Statement]:
-    """Statements that keep the tables of objects and tracks as the annotation."""
+    """Statements that keep the tables of objects and tracks, and the proposals, as the annotation."""
     statements: list[Statement] = []
     for change in edit.changes:
+        if isinstance(change, ProposalChange):
+            kept = change.before if undone else change.after
+            name = _proposal_name(change.track, change.tracker)
+            statements.append(("DELETE FROM blobs WHERE name = ?", (name,)))
+            if kept is not None:
+                sql = "INSERT INTO blobs (name, seq, data) VALUES (?, 0, ?)"
+                statements.append((sql, (name, encode_proposal(kept))))
         if isinstance(change, ObjectChange | TrackChange):
             table = "objects" if isinstance(change, ObjectChange) else "tracks"
             value = change.before if undone else change.after

@@ -289,6 +289,10 @@ class Annotation:
         """Set or remove a note about the whole annotation."""
         _put(self.meta, key, value)
 
+    def put_proposal(self, track: int, tracker: str, proposal: Proposal | None) -> None:
+        """Set or remove a tracker's proposal."""
+        _put(self.proposals.setdefault(track, {}), tracker, proposal)
+
     def reserve(self, count: int) -> None:
         """Make room for `count` tracks in all, so that adding many does not copy often."""
         if count <= len(self._ids):

@@ -1,4 +1,4 @@
-"""Edits of objects and whole tracks: make, delete, rename, swap, split, join, and the steps of a review."""
+"""Edits of objects and whole tracks: make, delete, rename, and the steps of a review."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from genmojo_core.errors import GenmojoError
 from genmojo_core.sentences import say
 from genmojo_core.tracks import review
 from genmojo_core.tracks.annotation import REASONS, Annotation, Cells, ObjectInfo, TrackInfo
-from genmojo_core.tracks.edits import CellsChange, Edit, MetaChange, ObjectChange, TrackChange, cells_change
+from genmojo_core.tracks.edits import Edit, MetaChange, ObjectChange, TrackChange, cells_change
 from genmojo_core.tracks.model import NONE
 
 
@@ -39,7 +39,7 @@ def add_track(annotation: Annotation, object_id: int, number: int, person: str =
 
 def delete_track(annotation: Annotation, track: int) -> Edit:
     """Remove a track with all its cells; undo brings them back."""
-    info = _unlocked(annotation, track)
+    info = unlocked(annotation, track)
     cells = cells_change(annotation, track, np.arange(annotation.frames), Cells.empty(annotation.frames))
     gone = TrackChange(track, info, None)
     changes = (gone,) if cells is None else (cells, gone)
@@ -48,7 +48,7 @@ def delete_track(annotation: Annotation, track: int) -> Edit:
 
 def update_track(annotation: Annotation, track: int, title: str = "", frame: int | None = None, **fields: Any) -> Edit:
     """Give a track another name, number, person, lock, ... (fields of TrackInfo)."""
-    info = annotation.tracks[track] if track in annotation.tracks else _unlocked(annotation, track)
+    info = annotation.tracks[track] if track in annotation.tracks else unlocked(annotation, track)
     new = replace(info, **fields)
     changes = (TrackChange(track, info, new),) if new != info else ()
     return Edit("track", title or say("change_point", number=info.number), changes, frame, track)
@@ -114,56 +114,7 @@ def lock(annotation: Annotation, track: int, frame: int, *, on: bool) -> Edit:
     return update_track(annotation, track, say("lock" if on else "unlock"), frame, locked=on, review=stands)
 
 
-def swap(annotation: Annotation, one: int, other: int, first: int, last: int) -> Edit:
-    """Two tracks change places in frames first..last, keys included; either may be empty there."""
-    frames = np.arange(first, last + 1)
-    a, b = (_checked_cells(annotation, track, first, last) for track in (one, other))
-    changes = [cells_change(annotation, one, frames, b), cells_change(annotation, other, frames, a)]
-    title = say("swap", one=annotation.tracks[one].number, other=annotation.tracks[other].number)
-    return Edit("swap", title, tuple(c for c in changes if c is not None), first, one)
-
-
-def split(annotation: Annotation, track: int, t: int, number: int) -> Edit:
-    """Frames t and after go to a new track with that number of the same object; its id is `edit.track`."""
-    info = _unlocked(annotation, track)
-    made = add_track(annotation, info.object, number, info.person)
-    tail = _checked_cells(annotation, track, t, annotation.frames - 1)
-    frames = np.arange(t, annotation.frames)
-    away = cells_change(annotation, track, frames, Cells.empty(len(frames)))
-    if away is None:
-        raise GenmojoError("argument", f"track {track} has nothing from frame {t} on")
-    moved = _onto_empty(int(made.track or 0), frames, tail)
-    title = say("split", number=info.number, frame=t)
-    return Edit("split", title, (*made.changes, away, moved), t, made.track)
-
-
-def join_tracks(annotation: Annotation, one: int, other: int) -> Edit:
-    """`one` takes what `other` knows where it knows nothing itself; `other` is deleted."""
-    mine, theirs = annotation.track(one), annotation.track(other)
-    frames = np.flatnonzero((mine.state == NONE) & (theirs.state != NONE))
-    taken = cells_change(annotation, one, frames, annotation.cells(other, frames))
-    _unlocked(annotation, one)
-    title = say("join", one=annotation.tracks[one].number, other=annotation.tracks[other].number)
-    gone = delete_track(annotation, other)
-    changes = gone.changes if taken is None else (taken, *gone.changes)
-    return Edit("join", title, changes, int(frames[0]) if len(frames) else 0, one)
-
-
-def _onto_empty(track: int, frames: np.ndarray, cells: Cells) -> CellsChange:
-    """The change that fills a track not made yet."""
-
-    return CellsChange(track, frames.astype(np.int32), Cells.empty(len(frames)), cells)
-
-
-def _checked_cells(annotation: Annotation, track: int, first: int, last: int) -> Cells:
-    """Copies of frames first..last of a track that is not locked."""
-    _unlocked(annotation, track)
-    if not 0 <= first <= last < annotation.frames:
-        raise GenmojoError("argument", f"frames {first} to {last} are not in 0 to {annotation.frames - 1}")
-    return annotation.cells(track, np.arange(first, last + 1))
-
-
-def _unlocked(annotation: Annotation, track: int) -> TrackInfo:
+def unlocked(annotation: Annotation, track: int) -> TrackInfo:
     """A track's description. Raises GenmojoError("argument") if it is missing or locked."""
     annotation.row(track)
     info = annotation.tracks[track]

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from genmojo_core.sentences import say
-from genmojo_core.tracks.annotation import Annotation, Cells, ObjectInfo, Touched, TrackInfo
+from genmojo_core.tracks.annotation import Annotation, Cells, ObjectInfo, Proposal, Touched, TrackInfo
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,17 @@ class MetaChange:
     after: str | None
 
 
-Change = CellsChange | TrackChange | ObjectChange | MetaChange
+@dataclass(frozen=True)
+class ProposalChange:
+    """What a tracker proposed for a track, where tracks exchange their frames; None: nothing is kept of it."""
+
+    track: int
+    tracker: str
+    before: Proposal | None
+    after: Proposal | None
+
+
+Change = CellsChange | TrackChange | ObjectChange | MetaChange | ProposalChange
 
 
 @dataclass(frozen=True)
@@ -123,6 +133,8 @@ def _apply(annotation: Annotation, changes: tuple[Change, ...], forward: bool) -
         elif isinstance(change, ObjectChange):
             annotation.put_object(change.id, value)  # type: ignore[arg-type]
             touched.objects.add(change.id)
+        elif isinstance(change, ProposalChange):
+            annotation.put_proposal(change.track, change.tracker, value)  # type: ignore[arg-type]
         else:
             annotation.put_meta(change.key, value)  # type: ignore[arg-type]
     annotation.notify(touched)

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from genmojo_core.errors import GenmojoError
-from genmojo_core.tracks import edit_tracks, keys
+from genmojo_core.tracks import edit_tracks, exchange, keys
 from genmojo_core.tracks.annotation import (
     BY_HOLD,
     BY_LINE,
@@ -171,13 +171,13 @@ def test_locked_and_approved_tracks_refuse_edits_in_one_sentence() -> None:
 def test_swap_split_and_join_with_one_side_missing() -> None:
     annotation = annotations.started()
     keys.accept(annotation, {1: proposal()}, TRACKER).do(annotation)
-    edit_tracks.swap(annotation, 1, 2, 10, 14).do(annotation)
+    exchange.swap(annotation, 1, 2, 10, 14).do(annotation)
     assert (annotation.track(1).state[10:15] == NONE).all()
     assert (annotation.track(2).state[10:15] == VISIBLE).all()
-    edit = edit_tracks.split(annotation, 1, 15, 9)
+    edit = exchange.split(annotation, 1, 15, 9)
     edit.do(annotation)
     assert (annotation.track(edit.track).state[15:] == VISIBLE).all()
-    edit_tracks.join_tracks(annotation, 1, edit.track).do(annotation)
+    exchange.join_tracks(annotation, 1, edit.track).do(annotation)
     assert edit.track not in annotation.tracks
     assert (annotation.track(1).state[15:] == VISIBLE).all()
 

@@ -29,7 +29,7 @@ from PySide6.QtWidgets import (
 from genmojo_core.errors import GenmojoError
 from genmojo_core.sentences import say
 from genmojo_core.tracks.annotation import REASONS
-from genmojo_core.tracks.edit_tracks import swap
+from genmojo_core.tracks.exchange import swap
 from genmojo_core.tracks.model import OCCLUDED, OUT_OF_VIEW, VISIBLE
 from genmojo_studio import translate
 from genmojo_studio.annotate import verbs
