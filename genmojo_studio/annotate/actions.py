@@ -117,9 +117,11 @@ _TRACK = (
             separator=True),
     _action("track.clear_before", "Clear before this frame", "Alt+Shift+Del", "Forgets it before here.",
             blender="Shift+T"),
-    _action("track.swap", "Swap with another point…", "", "Two points change places from here on."),
+    _action("track.swap", "Swap with another point…", "Y", "In the marked frames, or from here on.", separator=True),
+    _action("track.split", "Split: from here on another point…", "Shift+J", "The rest becomes a point that is free."),
+    _action("track.join", "Join with another point…", "J", "Takes the frames of another track, which goes."),
     _action("track.lock", "Lock the track", "Ctrl+L", "A locked track cannot be changed.", cvat="L Ctrl+L",
-            blender="Ctrl+L Alt+L", checkable=True),
+            blender="Ctrl+L Alt+L", checkable=True, separator=True),
     _action("track.delete", "Delete the track", "Shift+Del", "Can be undone.", blender="X"),
 )  # fmt: skip
 

@@ -12,6 +12,7 @@ from genmojo_studio.annotate import steps, verbs
 from genmojo_studio.annotate.accepting import Accepting
 from genmojo_studio.annotate.actions import KEYED
 from genmojo_studio.annotate.dialogs import Dialogs
+from genmojo_studio.annotate.exchange_dialog import KINDS
 from genmojo_studio.annotate.following import Following
 from genmojo_studio.annotate.going import Going
 from genmojo_studio.annotate.keeping import Keeping
@@ -151,7 +152,7 @@ class Hands:
             "track.mode": lambda: self._solved_after(verbs.set_mode),
             "track.clear_after": lambda: verbs.clear(s, after=True),
             "track.clear_before": lambda: verbs.clear(s, after=False),
-            "track.swap": self.dialogs.swap,
+            **{f"track.{kind}": partial(self.dialogs.exchange, kind) for kind in KINDS},
             "track.lock": lambda: verbs.toggle_lock(s),
             "track.delete": lambda: verbs.delete_track(s),
             "review.fix": self.dialogs.fix,

@@ -12,10 +12,10 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog, QMenu
 from genmojo_core.clip import digests
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store import project_file
-from genmojo_core.tracks import edit_tracks
 from genmojo_core.tracks.annotation import REASONS
 from genmojo_studio import notify
-from genmojo_studio.annotate import audit_panel, take_tracks, verbs
+from genmojo_studio.annotate import audit_panel, take_tracks
+from genmojo_studio.annotate.exchange_dialog import ExchangeDialog, Kind, hindrance
 from genmojo_studio.annotate.history_dialog import HistoryDialog
 from genmojo_studio.annotate.log_dialog import LogDialog
 from genmojo_studio.annotate.merge_dialog import MergeDialog
@@ -59,18 +59,16 @@ class Dialogs:
         if chosen is not None:
             self._w.review.needs_fix(menu.actions().index(chosen))
 
-    def swap(self) -> None:
-        """With which point; from this frame on."""
-        s = self._s
-        others = [i for i in s.annotation.tracks.values() if i.id != s.track]
-        if s.track is None or not others:
+    def exchange(self, kind: Kind) -> None:
+        """Swap, split or join the active track: with which point, in which frames; why not, where it cannot be."""
+        why_not = hindrance(self._s, kind)
+        if why_not:
+            self._s.said.emit(why_not)
             return
-        titles = [s.title(i.object, i.number) for i in others]
-        title, chosen = QInputDialog.getItem(self._w, tr("Swap"), tr("From this frame on, swap with"), titles, 0, False)
-        if chosen:
-            one, other = s.track, others[titles.index(title)].id
-            last = s.annotation.frames - 1
-            verbs.attempt(s, lambda: edit_tracks.swap(s.annotation, one, other, s.frame, last))
+        dialog = ExchangeDialog(self._s, kind, self._w)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.open()
+        dialog.beside(self._w.canvas)
 
     def checkpoint(self) -> None:
         """A name for what stands now."""

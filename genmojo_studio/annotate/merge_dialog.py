@@ -158,7 +158,7 @@ class MergeDialog(QDialog):
             return
         one = self.runs[row]
         session, their = self._session, one.their
-        session.other = Other(self._theirs, their, tr("theirs")) if their is not None else None
+        session.others = (Other(self._theirs, their, tr("theirs")),) if their is not None else ()
         if one.track is not None:
             session.select_track(one.track)
         frame = session.frame
@@ -184,7 +184,7 @@ class MergeDialog(QDialog):
 
     def _forget(self) -> None:
         """Nothing of theirs stays in the frame."""
-        self._session.other = None
+        self._session.others = ()
         self._session.shown.emit()
 
     def _merge(self) -> None:

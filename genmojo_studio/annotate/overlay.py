@@ -29,7 +29,6 @@ FLYING = 800  # dots that are drawn while frames fly by
 RADIUS = 6.0
 _FAINT = 0.3  # of marks that would hide where another is dragged to
 _DARK = QColor(12, 14, 18)
-_THEIRS = QColor(255, 255, 255)
 
 
 @dataclass(frozen=True)
@@ -50,12 +49,14 @@ class Mark:
 
 @dataclass(frozen=True)
 class Ghost:
-    """Another person's track: its label, raster xy (k, 2), state (k,) and index in them of the frame shown."""
+    """A track beside what stands, another person's or one to come: its label, raster xy (k, 2), state (k,) and index in
+    them of the frame shown, colour (r, g, b) 0..255."""
 
     label: str
     xy: np.ndarray
     state: np.ndarray
     now: int
+    colour: tuple[int, int, int] = (255, 255, 255)
 
 
 @dataclass
@@ -66,7 +67,7 @@ class Picture:
         marks: points with glyphs, the selected one among them. dots: (n, 2) raster positions of all other points.
         trails: per mark, raster xy (k, 2), state (k,) and index in them of the frame shown.
         contours: per object id, its place in the list and its outlines as closed (m, 2) raster polygons.
-        mask_mode: 0 off, 1 outline, 2 filled. selected: track id or None. ghost: a second annotator's track, or None.
+        mask_mode: 0 off, 1 outline, 2 filled. selected: track id or None. ghosts: tracks to compare with.
         sketch: boxes and strokes of this frame that wait to be cut out.
     """
 
@@ -78,7 +79,7 @@ class Picture:
     selected: int | None = None
     selected_object: int | None = None
     sketch: list[Prompt] = field(default_factory=list)
-    ghost: Ghost | None = None
+    ghosts: list[Ghost] = field(default_factory=list)
 
 
 def contours_of(labels: np.ndarray, places: dict[int, int]) -> dict[int, tuple[int, list[np.ndarray]]]:
@@ -132,8 +133,8 @@ def draw(
             painter.drawPixmap(centre - QPointF(half, half), stamp)
     painter.setOpacity(1.0)
     _sketch(painter, picture.sketch, mapping)
-    if picture.ghost is not None:
-        _ghost(painter, picture.ghost, mapping)
+    for ghost in picture.ghosts:
+        _ghost(painter, ghost, mapping)
 
 
 def sketch_pen(*, on: bool) -> QPen:
@@ -309,10 +310,11 @@ def _trails(painter: QPainter, picture: Picture, mapping: Mapping, *, fine: bool
 
 
 def _ghost(painter: QPainter, ghost: Ghost, mapping: Mapping) -> None:
-    """A second annotator's track: a white dotted trail, and a ring with a label, dashed where the point is hidden."""
+    """A track to compare with: a dotted trail, and a ring with a label, dashed where the point is hidden."""
+    own = QColor(*ghost.colour)
     x, y = _mapped(ghost.xy, mapping)
     painter.setBrush(Qt.BrushStyle.NoBrush)
-    for colour, width in ((_DARK, 3.6), (_THEIRS, 1.8)):
+    for colour, width in ((_DARK, 3.6), (own, 1.8)):
         painter.setPen(QPen(colour, width, Qt.PenStyle.DotLine))
         for begin, stop, _ in _runs(_styles(ghost.state), 0, len(x) - 1):
             painter.drawPolyline(pg.functions.arrayToQPolygonF(x[begin : stop + 1], y[begin : stop + 1]))
@@ -321,14 +323,14 @@ def _ghost(painter: QPainter, ghost: Ghost, mapping: Mapping) -> None:
         return
     centre = QPointF(x[ghost.now], y[ghost.now])
     style = Qt.PenStyle.SolidLine if state == VISIBLE else Qt.PenStyle.DashLine
-    for colour, width in ((_DARK, 4.0), (_THEIRS, 2.0)):
+    for colour, width in ((_DARK, 4.0), (own, 2.0)):
         painter.setPen(QPen(colour, width, style))
         painter.drawEllipse(centre, RADIUS * 1.5, RADIUS * 1.5)
     at = centre + QPointF(RADIUS * 1.8, RADIUS * 2.4)
     painter.setPen(QPen(_DARK, 1))
     for shift in ((-1, 0), (1, 0), (0, -1), (0, 1)):
         painter.drawText(at + QPointF(*shift), ghost.label)
-    painter.setPen(_THEIRS)
+    painter.setPen(own)
     painter.drawText(at, ghost.label)
 
 

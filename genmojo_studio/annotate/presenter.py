@@ -7,7 +7,7 @@ import numpy as np
 from genmojo_core.tracks.annotation import FrameView
 from genmojo_core.tracks.model import NONE
 from genmojo_studio.annotate.overlay import DETAILED, MANY, Ghost, Mark, Picture, contours_of
-from genmojo_studio.annotate.session import Session
+from genmojo_studio.annotate.session import Other, Session
 
 
 class Presenter:
@@ -34,7 +34,7 @@ class Presenter:
         return Picture(
             marks, view.xy[rest], self._trails(marks, frame), self.contours(frame), session.mask_mode,
             session.track, session.active[0], [p for p in session.sketch if p.frame == frame and session.sketching],
-            self._ghost(frame),
+            [self._ghost(other, frame) for other in session.others],
         )  # fmt: skip
 
     def contours(self, frame: int) -> dict:
@@ -95,15 +95,12 @@ class Presenter:
         return Mark(track, (float(view.xy[n, 0]), float(view.xy[n, 1])), int(view.state[n]), int(view.flags[n]), place,
                     point, float(doubt[frame]) if doubt is not None and frame < len(doubt) else 0.0)  # fmt: skip
 
-    def _ghost(self, frame: int) -> Ghost | None:
-        """The track of a second annotator that is being compared."""
-        other = self._session.other
-        if other is None:
-            return None
+    def _ghost(self, other: Other, frame: int) -> Ghost:
+        """A track that is being compared, or what one is about to become."""
         reach = self._session.trail
         first, end = max(0, frame - reach), min(other.annotation.frames, frame + reach + 1)
         xy, state = other.annotation.window([other.track], first, end)
-        return Ghost(other.label, xy[:, 0], state[:, 0], frame - first)
+        return Ghost(other.label, xy[:, 0], state[:, 0], frame - first, other.colour)
 
     def _trails(self, marks: list[Mark], frame: int) -> list[tuple[Mark, np.ndarray, np.ndarray, int]]:
         """Trails of the marks in one lookup."""

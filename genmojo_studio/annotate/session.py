@@ -48,11 +48,15 @@ class Painting:
 
 @dataclass(frozen=True)
 class Other:
-    """A second annotator's track shown beside mine while the two are compared, and what to call it."""
+    """A track shown beside what stands: a second annotator's, or what a track is about to become; and what to call it.
+
+    colour (r, g, b) 0..255.
+    """
 
     annotation: Annotation
     track: int
     label: str
+    colour: tuple[int, int, int] = (255, 255, 255)
 
 
 class Session(QObject):
@@ -78,7 +82,7 @@ class Session(QObject):
         self.run: tuple[int | None, int | None] = (None, None)  # marked by [ and ], on this track:
         self.run_track: int | None = None
         self.painting: Painting | None = None
-        self.other: Other | None = None
+        self.others: tuple[Other, ...] = ()
         self.suspicion: dict[int, np.ndarray] = {}  # track -> (T,) 0..1
         self.suspicions: dict[int, Suspicion] = {}  # track -> what it comes from
         self.snap = False
@@ -168,6 +172,11 @@ class Session(QObject):
         point = self.annotation.tracks[track].name if track is not None else ""
         name = owner.name if owner else tr("object {n}").format(n=object_id)
         return f"{name} · {number} {point}".rstrip()
+
+    def label(self, object_id: int, number: int) -> str:
+        """A point in words that no other point has: the object's place in the order goes first."""
+        place = self.places().get(object_id)
+        return f"{'–' if place is None else place + 1}  {self.title(object_id, number)}"
 
     # ---- going and choosing
 

@@ -228,14 +228,6 @@
       <translation>Was stimmt nicht?</translation>
     </message>
     <message>
-      <source>Swap</source>
-      <translation>Tauschen</translation>
-    </message>
-    <message>
-      <source>From this frame on, swap with</source>
-      <translation>Ab diesem Bild tauschen mit</translation>
-    </message>
-    <message>
       <source>Name this moment</source>
       <translation>Diesen Stand benennen</translation>
     </message>
@@ -258,6 +250,134 @@
     <message>
       <source>No points yet: place them in step 2.</source>
       <translation>Noch keine Punkte: setzen Sie sie in Schritt 2.</translation>
+    </message>
+    <message>
+      <source>Choose a point that has a track first.</source>
+      <translation>Erst einen Punkt wählen, der eine Spur hat.</translation>
+    </message>
+    <message>
+      <source>This track is locked; unlock it first (Ctrl+L).</source>
+      <translation>Diese Spur ist gesperrt; erst entsperren (Ctrl+L).</translation>
+    </message>
+    <message>
+      <source>This track has nothing from this frame on; go to an earlier frame.</source>
+      <translation>Diese Spur hat ab diesem Bild nichts; geh zu einem früheren Bild.</translation>
+    </message>
+    <message>
+      <source>There is no other track that is not locked.</source>
+      <translation>Es gibt keine andere Spur, die nicht gesperrt ist.</translation>
+    </message>
+    <message>
+      <source>{n} frames are taken over. In {both} frames both have a place, in {keyed} of them both were placed by hand; otherwise what a person placed or accepted goes first.</source>
+      <translation>{n} Bilder werden übernommen. In {both} Bildern haben beide einen Ort, in {keyed} davon wurden beide von Hand gesetzt; sonst geht vor, was ein Mensch gesetzt oder angenommen hat.</translation>
+    </message>
+    <message>
+      <source>Swap two points</source>
+      <translation>Zwei Punkte tauschen</translation>
+    </message>
+    <message>
+      <source>Split a track</source>
+      <translation>Eine Spur teilen</translation>
+    </message>
+    <message>
+      <source>Join two tracks</source>
+      <translation>Zwei Spuren verbinden</translation>
+    </message>
+    <message>
+      <source>{point} changes places with:</source>
+      <translation>{point} tauscht den Platz mit:</translation>
+    </message>
+    <message>
+      <source>{point} takes the frames of:</source>
+      <translation>{point} übernimmt die Bilder von:</translation>
+    </message>
+    <message>
+      <source>{point} is, from frame {n} on:</source>
+      <translation>{point} ist ab Bild {n}:</translation>
+    </message>
+    <message>
+      <source>Points</source>
+      <translation>Punkte</translation>
+    </message>
+    <message>
+      <source>Frames</source>
+      <translation>Bilder</translation>
+    </message>
+    <message>
+      <source>Whose places stand where both have some</source>
+      <translation>Wessen Orte gelten, wo beide welche haben</translation>
+    </message>
+    <message>
+      <source>The frame shows what comes of it; , and . step through it. One step; it can be undone.</source>
+      <translation>Das Bild zeigt, was daraus wird; , und . gehen Bild für Bild. Ein Schritt; er lässt sich zurücknehmen.</translation>
+    </message>
+    <message>
+      <source>Swap</source>
+      <translation>Tauschen</translation>
+    </message>
+    <message>
+      <source>Split</source>
+      <translation>Teilen</translation>
+    </message>
+    <message>
+      <source>Join</source>
+      <translation>Verbinden</translation>
+    </message>
+    <message>
+      <source>Neither point has a place in these frames; nothing would change.</source>
+      <translation>Keiner der Punkte hat in diesen Bildern einen Ort; nichts würde sich ändern.</translation>
+    </message>
+    <message>
+      <source>where both were placed: {point}</source>
+      <translation>wo beide gesetzt wurden: {point}</translation>
+    </message>
+    <message>
+      <source>Swapped; Ctrl+Z takes it back.</source>
+      <translation>Getauscht; Strg+Z nimmt es zurück.</translation>
+    </message>
+    <message>
+      <source>Split; the new part is active now.</source>
+      <translation>Geteilt; der neue Teil ist jetzt aktiv.</translation>
+    </message>
+    <message>
+      <source>Joined; Ctrl+Z takes it back.</source>
+      <translation>Verbunden; Strg+Z nimmt es zurück.</translation>
+    </message>
+    <message>
+      <source>in all frames</source>
+      <translation>in allen Bildern</translation>
+    </message>
+    <message>
+      <source>{n} frames move.</source>
+      <translation>{n} Bilder ziehen um.</translation>
+    </message>
+    <message>
+      <source>{n} frames change places.</source>
+      <translation>{n} Bilder tauschen den Platz.</translation>
+    </message>
+    <message>
+      <source>{n} frames are taken over; no frame has both.</source>
+      <translation>{n} Bilder werden übernommen; in keinem haben beide einen Ort.</translation>
+    </message>
+    <message>
+      <source>from this frame on ({a} to {b})</source>
+      <translation>ab diesem Bild ({a} bis {b})</translation>
+    </message>
+    <message>
+      <source>up to this frame ({a} to {b})</source>
+      <translation>bis zu diesem Bild ({a} bis {b})</translation>
+    </message>
+    <message>
+      <source>in this frame only ({a})</source>
+      <translation>nur in diesem Bild ({a})</translation>
+    </message>
+    <message>
+      <source>in the marked frames {a} to {b}</source>
+      <translation>in den markierten Bildern {a} bis {b}</translation>
+    </message>
+    <message>
+      <source>locked</source>
+      <translation>gesperrt</translation>
     </message>
     <message>
       <source>read only: {name} is editing ({pid}/{host})</source>
@@ -788,10 +908,6 @@
       <translation>Was übernommen wird</translation>
     </message>
     <message>
-      <source>theirs</source>
-      <translation>ihres</translation>
-    </message>
-    <message>
       <source>frame {n}</source>
       <translation>Bild {n}</translation>
     </message>
@@ -800,8 +916,8 @@
       <translation>{n} Bilder</translation>
     </message>
     <message>
-      <source>locked</source>
-      <translation>gesperrt</translation>
+      <source>theirs</source>
+      <translation>ihres</translation>
     </message>
     <message>
       <source>frames {first} to {last}</source>
@@ -2546,10 +2662,6 @@
     <message>
       <source>No mask, or a wrong one? Draw a box around the object, click and scribble on it and beside it, then Cut out. It is followed through the clip.</source>
       <translation>Keine Maske, oder eine falsche? Ziehen Sie ein Rechteck um das Objekt, klicken und zeichnen Sie darauf und daneben, dann „Ausschneiden“. Es wird durch den Clip verfolgt.</translation>
-    </message>
-    <message>
-      <source>Points</source>
-      <translation>Punkte</translation>
     </message>
     <message>
       <source>Click five points on each object; the next one is chosen for you. Hold Z for the loupe, Ctrl and an arrow nudge by a quarter of a pixel.</source>
@@ -5070,8 +5182,24 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>Mit einem anderen Punkt tauschen…</translation>
     </message>
     <message>
-      <source>Two points change places from here on.</source>
-      <translation>Zwei Punkte tauschen ab hier den Platz.</translation>
+      <source>In the marked frames, or from here on.</source>
+      <translation>In den markierten Bildern oder ab hier.</translation>
+    </message>
+    <message>
+      <source>Split: from here on another point…</source>
+      <translation>Teilen: ab hier ein anderer Punkt …</translation>
+    </message>
+    <message>
+      <source>The rest becomes a point that is free.</source>
+      <translation>Der Rest wird ein Punkt, der frei ist.</translation>
+    </message>
+    <message>
+      <source>Join with another point…</source>
+      <translation>Mit einem anderen Punkt verbinden …</translation>
+    </message>
+    <message>
+      <source>Takes the frames of another track, which goes.</source>
+      <translation>Übernimmt die Bilder einer anderen Spur, die dann weg ist.</translation>
     </message>
     <message>
       <source>Lock the track</source>
@@ -5952,6 +6080,18 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>Join point {one} and point {other}</source>
       <translation>Punkt {one} und Punkt {other} verbinden</translation>
+    </message>
+    <message>
+      <source>Exchange {one} and {other}, {frames}</source>
+      <translation>{one} und {other} tauschen, {frames}</translation>
+    </message>
+    <message>
+      <source>Split {one}: from {frame} on it is {other}</source>
+      <translation>{one} teilen: ab {frame} ist es {other}</translation>
+    </message>
+    <message>
+      <source>Join {other} to {one}</source>
+      <translation>{other} mit {one} verbinden</translation>
     </message>
     <message>
       <source>Unlock</source>
@@ -8138,20 +8278,40 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>annotieren Sie sie erst</translation>
     </message>
     <message>
-      <source>track {track} has nothing from frame {value} on</source>
-      <translation>Spur {track} hat von Bild {value} an nichts</translation>
-    </message>
-    <message>
-      <source>frames {first} to {last} are not in 0 to {frames}</source>
-      <translation>die Bilder {first} bis {last} liegen nicht in 0 bis {frames}</translation>
-    </message>
-    <message>
       <source>track {track} is locked</source>
       <translation>Spur {track} ist gesperrt</translation>
     </message>
     <message>
       <source>unlock it first</source>
       <translation>entsperren Sie sie erst</translation>
+    </message>
+    <message>
+      <source>{track} has nothing from frame {value} on</source>
+      <translation>{track} hat ab Bild {value} nichts</translation>
+    </message>
+    <message>
+      <source>choose an earlier frame</source>
+      <translation>ein früheres Bild wählen</translation>
+    </message>
+    <message>
+      <source>a track cannot be joined to itself</source>
+      <translation>eine Spur lässt sich nicht mit sich selbst verbinden</translation>
+    </message>
+    <message>
+      <source>choose another one</source>
+      <translation>eine andere wählen</translation>
+    </message>
+    <message>
+      <source>{track} has places of its own in {known} of these frames, the first is {known_2}</source>
+      <translation>{track} hat in {known} dieser Bilder eigene Orte, zuerst in Bild {known_2}</translation>
+    </message>
+    <message>
+      <source>swap or join the two instead</source>
+      <translation>stattdessen beide tauschen oder verbinden</translation>
+    </message>
+    <message>
+      <source>frames {first} to {last} are not in 0 to {frames}</source>
+      <translation>die Bilder {first} bis {last} liegen nicht in 0 bis {frames}</translation>
     </message>
     <message>
       <source>the place {xy} of a key is not finite</source>

@@ -38,7 +38,7 @@ def test_their_point_is_drawn_beside_mine_while_the_two_are_compared(workspace, 
     assert session.frame == (run.first + run.last) // 2
     session.go(5)
     qtbot.waitUntil(lambda: workspace.screen_link.painted == 5, timeout=60_000)
-    ghost = workspace.canvas.picture.ghost
+    (ghost,) = workspace.canvas.picture.ghosts
     assert ghost is not None
     np.testing.assert_allclose(ghost.xy[ghost.now], place, atol=1e-3)
     picture = workspace.canvas.grab().toImage()
@@ -48,7 +48,7 @@ def test_their_point_is_drawn_beside_mine_while_the_two_are_compared(workspace, 
             for a in np.linspace(0, 6.28, 24)]  # fmt: skip
     assert np.median(ring) > 230
     dialog.reject()
-    assert workspace.canvas.picture.ghost is None
+    assert not workspace.canvas.picture.ghosts
 
 
 def test_what_only_they_have_is_offered_and_locked_rows_rest(workspace):
