@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
+from PySide6.QtWidgets import QMainWindow
 
 from genmojo_core.tracks import edit_tracks
 from genmojo_core.tracks.model import NONE
@@ -31,6 +32,8 @@ class Placing:
             raise RuntimeError("a session is needed before points can be placed")
         self._w, self._s, self._going = workspace, workspace.session, going
         self._owner = self._s.active[0]
+        self._hint = ""  # what is to be done next, as long as it is
+        self._s.edited.connect(self._edited)
         workspace.canvas.clicked.connect(self.clicked)
         workspace.canvas.dragged.connect(self.dragged)
         workspace.canvas.held.connect(self.held)
@@ -116,8 +119,17 @@ class Placing:
             edit = edit_tracks.update_track(session.annotation, session.track, name=name)
             session.do(edit, session.project.log.edit(session.project.log.head).step)
         if not self._going.next_unplaced():
-            session.said.emit(tr("All points are placed. Seed the tracks now (Ctrl+G)."))
+            self._hint = tr("All points are placed. Seed the tracks now (Ctrl+G).")
+            session.said.emit(self._hint)
         session.set_placed(placed)
+
+    def _edited(self) -> None:
+        """What to do next is not said any more once it is done, in whichever way."""
+        step = steps.STEPS[steps.place_of("points")]
+        if self._hint and not step.missing(self._s.annotation, self._s.limit("points"), self._s.stride):
+            window, hint, self._hint = self._w.window(), self._hint, ""
+            if isinstance(window, QMainWindow) and window.statusBar().currentMessage() == hint:
+                self._s.said.emit("")
 
     def _far(self, x: float, y: float) -> bool:
         """Whether a click is out of reach of the active point, if that has a place in this frame."""

@@ -145,3 +145,13 @@ def test_hidden_points_alone_are_no_place_to_start_from(workspace, said):
         session.do(keys.set_state(session.annotation, track, 0, 0, OCCLUDED))
     assert not workspace.work.tracker.seed_by(Waiting(), objects(session))
     assert said[-1] == "Place points where they are seen."
+
+
+def test_to_seed_now_is_not_said_any_more_once_it_is_done_in_any_way(workspace, qtbot):
+    choose_all(workspace)
+    place_points(workspace, each=workspace.session.limit("points"))
+    bar = workspace.window().statusBar()
+    assert "Seed the tracks now" in bar.currentMessage()
+    fill(workspace)  # as an import or a scene does: no seeding of this window ends here
+    workspace.show_step(2)
+    assert "Seed the tracks now" not in bar.currentMessage()
