@@ -37,8 +37,8 @@ class Keeping(QObject):
         """True if everything is on the disk, or a person gave up what is not. Asks as often as it takes."""
         project = self._s.project
         while not project.wait(10.0):
-            box = QMessageBox(QMessageBox.Icon.Warning, tr("Not everything is saved"),
-                              tr("Edits that could not be written: {n}.").format(n=project.unsaved()), parent=self._w)  # fmt: skip
+            count = tr("Edits that could not be written: {n}.").format(n=project.unsaved())
+            box = QMessageBox(QMessageBox.Icon.Warning, tr("Not everything is saved"), count, parent=self._w)
             box.setInformativeText(self._why or tr("Free some space and try again, or save a copy elsewhere."))
             retry = box.addButton(tr("Try again"), QMessageBox.ButtonRole.AcceptRole)
             copy = box.addButton(tr("Save a copy…"), QMessageBox.ButtonRole.AcceptRole)
