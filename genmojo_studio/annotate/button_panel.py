@@ -25,7 +25,7 @@ from genmojo_studio.actions import ActionTable
 from genmojo_studio.annotate import steps
 from genmojo_studio.annotate.session import STRIDES
 from genmojo_studio.annotate.steps import SHORT, Step
-from genmojo_studio.translate import tr
+from genmojo_studio.translate import mark, tr
 
 
 class ButtonPanel(QScrollArea):
@@ -146,8 +146,8 @@ class KeyButton(QToolButton):
         painter.end()
 
 
-_SIGNS = {"Shift": "⇧", "Return": "⏎", "Enter": "⏎", "Left": "←", "Right": "→", "Up": "↑", "Down": "↓",
-          "PgUp": "⇞", "PgDown": "⇟"}  # fmt: skip
+_SIGNS = {"Shift": "⇧", "Return": "⏎", "Enter": "⏎", "Left": "←", "Right": "→", "Up": "↑", "Down": "↓"}
+_PAGES = {"PgUp": mark("Pg↑"), "PgDown": mark("Pg↓")}  # arrows with two heads look alike where they are small
 
 
 def short_key(keys: str) -> str:
@@ -156,7 +156,7 @@ def short_key(keys: str) -> str:
         return ""
     held, key = ([*keys[:-2].split("+")], "+") if keys.endswith("+") else (keys.split("+")[:-1], keys.split("+")[-1])
     shown = [_SIGNS.get(word) or _native(f"{word}+A").removesuffix("+A") for word in held if word]
-    return "+".join([*shown, _SIGNS.get(key) or _native(key)])
+    return "+".join([*shown, tr(_PAGES[key]) if key in _PAGES else _SIGNS.get(key) or _native(key)])
 
 
 def _native(keys: str) -> str:

@@ -229,7 +229,7 @@ class Canvas(QWidget):
             at = QPointF(*self.mapping.to_widget(*dragged))
             overlay.draw_held(painter, self._hold.mark, QPointF(*self.mapping.to_widget(*self._hold.mark.xy)), at)
             draw_reticle(painter, at, self.reticle)
-        elif self.tool == Tool.POINT and self.underMouse():
+        elif self.tool == Tool.POINT and self.underMouse() and self.rect().contains(self._mouse.toPoint()):
             draw_reticle(painter, self._mouse, self.reticle)
 
     # ---- mouse

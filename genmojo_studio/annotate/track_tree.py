@@ -135,6 +135,8 @@ class TrackTree(QTreeWidget):
             object_id, number = item.data(0, _POINT)
             if number:
                 track = self._session.track_of(object_id, number)
+                name = "" if track is None else self._session.annotation.tracks[track].name
+                item.setText(0, f"{number}  {name}".rstrip())
                 for column, kind in enumerate(self._columns, 1):
                     text, colour = self._cell(track, kind, known)
                     item.setText(column, text)
@@ -166,7 +168,9 @@ class TrackTree(QTreeWidget):
         item = self._items.get(self._session.active)
         if item is not None and item is not self.currentItem():
             self._quiet = True
+            self.scrollToItem(item.parent())  # whose point it is, as far as there is room for both
             self.setCurrentItem(item)
+            self.scrollToItem(item)
             self._quiet = False
 
     def _clicked(self, item: QTreeWidgetItem) -> None:

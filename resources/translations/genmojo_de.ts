@@ -180,6 +180,14 @@
       <translation>Markiert: Bilder {a} bis {b}. Ein Zustand oder X gilt für sie.</translation>
     </message>
     <message>
+      <source>Pg↑</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Pg↓</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>Buttons of this step</source>
       <translation>Knöpfe dieses Schritts</translation>
     </message>
@@ -604,16 +612,16 @@
       <translation>{name} liegt nicht mehr unter {path}. Wo ist es?</translation>
     </message>
     <message>
+      <source>Edits that could not be written: {n}.</source>
+      <translation>Änderungen, die nicht geschrieben werden konnten: {n}.</translation>
+    </message>
+    <message>
       <source>Free some space and try again, or save a copy elsewhere.</source>
       <translation>Platz schaffen und noch einmal versuchen, oder anderswo eine Kopie sichern.</translation>
     </message>
     <message>
       <source>The clip's video</source>
       <translation>Video des Clips</translation>
-    </message>
-    <message>
-      <source>Edits that could not be written: {n}.</source>
-      <translation>Änderungen, die nicht geschrieben werden konnten: {n}.</translation>
     </message>
     <message>
       <source>Seconds at work come from the log; a pause counts as one minute at most. A key belongs to whoever placed or moved it last. What is left and its time are for the stride set above the frame.</source>

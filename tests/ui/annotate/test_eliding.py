@@ -6,7 +6,7 @@ Not covered: names that differ in letters which look alike.
 from dataclasses import replace
 
 import pytest
-from annotating import choose_all
+from annotating import choose_all, place_points
 from PySide6.QtGui import QFont, QFontMetrics, QStandardItem, QStandardItemModel
 from PySide6.QtWidgets import QStyleOptionViewItem
 
@@ -56,6 +56,25 @@ def test_the_table_and_the_tree_tell_objects_apart(workspace, qtbot):
     qtbot.waitUntil(tree.isVisible, timeout=60_000)
     tops = [drawn(tree, tree.model().index(row, 0)) for row in range(2)]
     assert tops[0] != tops[1] and all(text not in names for text in tops)
+
+
+def test_the_tree_tells_the_names_of_points(workspace, qtbot):
+    choose_all(workspace)
+    workspace.show_step(1)
+    owner = workspace.session.active[0]
+    workspace.points.template.setCurrentIndex(workspace.points.template.findData("animal"))
+    place_points(workspace, each=2)
+    session, tree = workspace.session, workspace.points.tree
+    first = tree.topLevelItem(session.place_of(owner)).child(0)
+    named = session.annotation.tracks_of(owner)[0]
+    assert named.name
+    session.select_track(named.id)
+    top = first.parent()
+    assert tree.viewport().rect().contains(tree.visualItemRect(top).center()), "whose point it is shows"
+    qtbot.waitUntil(lambda: first.text(0) == f"1  {named.name}", timeout=20_000)
+    workspace.points.name.setText("tip of the nose")
+    workspace.points.name.editingFinished.emit()
+    qtbot.waitUntil(lambda: first.text(0) == "1  tip of the nose", timeout=20_000)
 
 
 def test_a_model_of_plain_names_is_left_alone(qapp):
