@@ -181,11 +181,11 @@
     </message>
     <message>
       <source>Pg↑</source>
-      <translation type="unfinished" />
+      <translation>Bild↑</translation>
     </message>
     <message>
       <source>Pg↓</source>
-      <translation type="unfinished" />
+      <translation>Bild↓</translation>
     </message>
     <message>
       <source>Buttons of this step</source>
