@@ -168,7 +168,8 @@ class TrackTree(QTreeWidget):
         item = self._items.get(self._session.active)
         if item is not None and item is not self.currentItem():
             self._quiet = True
-            self.scrollToItem(item.parent())  # whose point it is, as far as there is room for both
+            if item.parent() is not None:
+                self.scrollToItem(item.parent())  # whose point it is, as far as there is room for both
             self.setCurrentItem(item)
             self.scrollToItem(item)
             self._quiet = False
