@@ -168,8 +168,9 @@ class TrackTree(QTreeWidget):
         item = self._items.get(self._session.active)
         if item is not None and item is not self.currentItem():
             self._quiet = True
-            if item.parent() is not None:
-                self.scrollToItem(item.parent())  # whose point it is, as far as there is room for both
+            owner = item.parent()
+            if owner is not None:
+                self.scrollToItem(owner)  # whose point it is, as far as there is room for both
             self.setCurrentItem(item)
             self.scrollToItem(item)
             self._quiet = False

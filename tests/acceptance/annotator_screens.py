@@ -51,6 +51,8 @@ def main(clip: Path, out: Path, sizes: list[tuple[int, int]]) -> None:
                 window.settings.forget_layouts()
                 annotate.restore_layout()  # as delivered for that size
                 QTest.qWait(400)
+                while not window.updatesEnabled():  # the theme dresses it in the ticks after it was chosen
+                    QTest.qWait(50)
                 scale = os.environ.get("QT_SCALE_FACTOR", "1")
                 window.grab().save(str(out / f"{number + 1}-{step.name}-{size[0]}x{size[1]}-{name}-{scale}.png"))
                 if (window.width(), window.height()) != size:
