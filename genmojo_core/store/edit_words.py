@@ -8,7 +8,7 @@ import numpy as np
 
 from genmojo_core.sentences import say
 from genmojo_core.tracks.annotation import CONFIRMED, KEY, UNCERTAIN, Cells, ObjectInfo, TrackInfo
-from genmojo_core.tracks.edits import CellsChange, Edit, MetaChange, ObjectChange, TrackChange
+from genmojo_core.tracks.edits import CellsChange, Edit, MetaChange, ObjectChange, ProposalChange, TrackChange
 from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
 
 _STATES = ((VISIBLE, "log_visible"), (OCCLUDED, "log_occluded"), (OUT_OF_VIEW, "log_out_of_view"))
@@ -109,7 +109,7 @@ def words_of(edit: Edit, known: Known) -> Words:
     points = tuple(known.point(track) for track in tracks)
     before, after = [], []
     for change in edit.changes:
-        if not isinstance(change, CellsChange):
+        if not isinstance(change, CellsChange | ProposalChange):  # proposals follow what their points do
             sides = _sides(change)
             before += sides[0]
             after += sides[1]

@@ -13,10 +13,10 @@ import numpy as np
 from genmojo_core.cli import main as cli
 from genmojo_core.store import audit, project_file
 from genmojo_core.store.project import Project, info_of
-from genmojo_core.tracks import edit_tracks, keys
+from genmojo_core.tracks import annotation, edit_tracks, exchange, keys
 from genmojo_core.tracks.annotation import ObjectInfo
 from genmojo_core.tracks.edits import set_meta
-from genmojo_core.tracks.model import OCCLUDED
+from genmojo_core.tracks.model import OCCLUDED, VISIBLE
 
 
 def worked(path: Path) -> Project:
@@ -58,6 +58,20 @@ def test_every_line_tells_point_frames_before_and_after(tmp_path: Path) -> None:
     assert f"occluded ×{painted.frames}" in painted.after
     assert {"needs a fix", "drift", "frames 2 to 4", "times returned: 1"} < set(found[7].words.after)
     assert "draft" in found[7].words.before
+
+
+def test_a_swap_of_tracks_that_were_proposed_can_be_read(tmp_path: Path) -> None:
+    project = worked(tmp_path / "p.genmojo")
+    a = project.annotation
+    project.do(edit_tracks.add_track(a, 1, 3, "Ada", "ear"))
+    xy = np.full((12, 2), 50.0, np.float32)
+    ways = {2: annotation.Proposal("optical", xy, np.full(12, VISIBLE, np.uint8), np.ones(12, np.float32))}
+    a.propose(2, ways[2])
+    project.do(keys.accept(a, ways, annotation.TRACKER))
+    project.do(exchange.swap(a, 1, 2, 4, 9))
+    project.close()
+    swapped = audit.entries(tmp_path / "p.genmojo")[-1]
+    assert [p.title() for p in swapped.words.points] == ["dog · 2 nose", "dog · 3 ear"]
 
 
 def test_a_point_keeps_the_name_it_had_then(tmp_path: Path) -> None:
