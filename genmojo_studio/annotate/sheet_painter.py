@@ -65,7 +65,7 @@ class SheetPainter:
             segment_line(painter, span, middle, mode, palette)
         painter.setPen(QPen(QColor(20, 22, 26), 1))
         painter.setBrush(QColor(255, 255, 255))
-        for key in apart(line.keys, view, 1.0 / axis.wide).tolist():
+        for key in apart(line.keys, view, 3.0 / axis.wide).tolist():
             painter.drawPolygon(diamond(axis.x_of(key + 0.5), middle, size))
 
     def label(self, painter: QPainter, track: int, y: float, palette: QPalette) -> None:

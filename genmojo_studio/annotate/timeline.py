@@ -73,7 +73,7 @@ class Timeline(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, on=True)
         painter.setPen(palette.placeholderText().color())
         first, end = self._view.cells()
-        words = tr("frames {a} to {b} of {n}").format(a=first, b=end - 1, n=self._view.frames)
+        words = tr("{a} to {b} of {n}").format(a=first, b=end - 1, n=self._view.frames)
         painter.drawText(QRectF(8, 0, LABEL - 12, _LANE + _BAR), Qt.AlignmentFlag.AlignVCenter, words)
         if self._still is None or self._drawn != axis:
             self._still, self._drawn = self._make_still(axis), axis
