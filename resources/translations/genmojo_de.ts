@@ -2632,8 +2632,8 @@
       <translation>Balken ziehen verschiebt, seine Enden ziehen zoomt; ein Doppelklick zeigt den ganzen Clip.</translation>
     </message>
     <message>
-      <source>frames {a} to {b} of {n}</source>
-      <translation>Bilder {a} bis {b} von {n}</translation>
+      <source>{a} to {b} of {n}</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>End the tour</source>
