@@ -2213,7 +2213,7 @@
     </message>
     <message>
       <source>worst first</source>
-      <translation>schlechteste zuerst</translation>
+      <translation>schlimmste zuerst</translation>
     </message>
     <message>
       <source>The most suspicious points first</source>
@@ -2633,7 +2633,7 @@
     </message>
     <message>
       <source>{a} to {b} of {n}</source>
-      <translation type="unfinished" />
+      <translation>{a} bis {b} von {n}</translation>
     </message>
     <message>
       <source>End the tour</source>
