@@ -93,7 +93,7 @@ def _review_missing(annotation: Annotation, points: int, stride: int) -> str:
     waiting = sum(i.review not in (*SETTLED, "needs_fix") for i in tracks)
     away = len(returned(annotation))
     parts = [tr("{n} tracks wait for a decision.").format(n=waiting)] if waiting or not tracks else []
-    parts += [tr("{n} were sent back to their annotators.").format(n=away)] if away else []
+    parts += [tr("Sent back to their annotators: {n}.").format(n=away)] if away else []
     return " ".join(parts)
 
 

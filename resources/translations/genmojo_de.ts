@@ -2492,8 +2492,8 @@
       <translation>{n} Spuren warten auf eine Entscheidung.</translation>
     </message>
     <message>
-      <source>{n} were sent back to their annotators.</source>
-      <translation>{n} sind zur Nacharbeit zurückgegeben.</translation>
+      <source>Sent back to their annotators: {n}.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>Every frame of the stride is accepted.</source>
