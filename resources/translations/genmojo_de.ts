@@ -2493,7 +2493,7 @@
     </message>
     <message>
       <source>Sent back to their annotators: {n}.</source>
-      <translation type="unfinished" />
+      <translation>Zur Nacharbeit zurückgegeben: {n}.</translation>
     </message>
     <message>
       <source>Every frame of the stride is accepted.</source>
