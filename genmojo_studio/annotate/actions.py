@@ -33,8 +33,8 @@ _MOVE = (
             blender="Left", repeats=True),
     _action("move.stride_next", "On by the stride", ".", "On by the frames of the stride.", cvat="V .", repeats=True),
     _action("move.stride_previous", "Back by the stride", ",", "Back by the stride.", cvat="C ,", repeats=True),
-    _action("move.open_next", "Next open frame of the stride", "J", "Where not every point is accepted yet."),
-    _action("move.open_previous", "Previous open frame of the stride", "Shift+J", "The same, backwards."),
+    _action("move.open_next", "Next open frame of the stride", "Alt+.", "Where not every point is accepted yet."),
+    _action("move.open_previous", "Previous open frame of the stride", "Alt+,", "The same, backwards."),
     _action("move.accept", "Accept all points and go on", "Return Enter", "Confirms the points here that nothing "
             "speaks against, and goes on by the stride or to the point that needs a look."),
     _action("move.accept_back", "Accept and go back", "Shift+Return Shift+Enter", "The same, backwards."),

@@ -17,6 +17,7 @@ from genmojo_studio.annotate.sheet_columns import Line, apart, columns, segments
 from genmojo_studio.annotate.sheet_painter import LABEL, ROW, RULER
 
 LEFT, MIDDLE, RIGHT = Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton, Qt.MouseButton.RightButton
+ALT = Qt.KeyboardModifier.AltModifier
 PLAIN, CTRL, SHIFT = (Qt.KeyboardModifier.NoModifier, Qt.KeyboardModifier.ControlModifier,
                       Qt.KeyboardModifier.ShiftModifier)  # fmt: skip
 
@@ -208,11 +209,11 @@ def test_stride_frames_are_marked_open_or_done_and_the_next_open_one_is_found(re
     assert play.sheet.viewport().grab().toImage().copy(0, 13, ruler.width(), 9) != ruler
     assert play.timeline.grab().toImage() != lane
     session.go(0)
-    QTest.keyClick(refining.canvas, Qt.Key.Key_J)
+    QTest.keyClick(refining.canvas, Qt.Key.Key_Period, ALT)
     assert session.frame == 9
-    QTest.keyClick(refining.canvas, Qt.Key.Key_J)
+    QTest.keyClick(refining.canvas, Qt.Key.Key_Period, ALT)
     assert session.frame == 15
-    QTest.keyClick(refining.canvas, Qt.Key.Key_J, SHIFT)
+    QTest.keyClick(refining.canvas, Qt.Key.Key_Comma, ALT)
     assert session.frame == 9
     session.undo()
     assert not marks.done()[4]
