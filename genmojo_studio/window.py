@@ -324,8 +324,7 @@ class MainWindow(QMainWindow):
         """The sheet of keys, of the step that a person is in."""
         for old in self.findChildren(KeySheet):
             old.close()
-        shown = self.workspaces.get(self.workspace)
-        place = getattr(shown, "step", None) if getattr(shown, "session", None) is not None else None
+        place = getattr(self.workspaces.get(self.workspace), "step", None)
         self._open_dialog(KeySheet(self.table, self.workspace, self, place), beside=True)
 
     def _open_dialog(self, dialog: QDialog, *, beside: bool = False) -> None:
@@ -390,10 +389,12 @@ def _read_clip(path: Path, workspace: str) -> tuple[Clip, Path | None, Path | No
     """
     from genmojo_core.clip import folders, mask_file
     from genmojo_studio.annotate import hand_masks
-    from genmojo_studio.annotate.session import project_path
+    from genmojo_studio.annotate.session import prepare_project, project_path
 
     importlib.import_module(_MODULES[workspace])
     clip = folders.read(path, short_side=opening.SHARED_SHORT_SIDE)
     file = project_path(path)
     project, masks = file if file.is_file() else None, file.with_suffix(hand_masks.SUFFIX)
+    if workspace == "annotate":
+        prepare_project(path)
     return (mask_file.with_masks(clip, masks), masks, project) if masks.exists() else (clip, None, project)

@@ -11,8 +11,10 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from genmojo_core.clip.clip import Clip
+from genmojo_core.clip.frames import open_source
 from genmojo_core.errors import GenmojoError
 from genmojo_core.estimate.masks import Prompt
+from genmojo_core.store import project_file
 from genmojo_core.store.project import Project, Step
 from genmojo_core.store.project_file import ClipInfo
 from genmojo_core.tracks.annotation import Annotation, ObjectInfo, Touched
@@ -342,10 +344,25 @@ def project_path(clip_path: Path) -> Path:
     return data_folder() / "projects" / f"{clip_path.absolute().name}-{where}.genmojo"
 
 
-def open_session(
-    state: AppState, path: Path, person: str, project_file: Path | None = None, clip: Path | None = None
-) -> Session:
-    """The session of a clip or of a project file; `clip`: where its clip lies by now, if it was moved.
+def prepare_project(clip_path: Path) -> None:
+    """Make the project file of a clip where there is none, for any thread: the disk may be slow.
+
+    Raises GenmojoError as `open_source` and `Project.create`.
+    """
+    file = project_path(clip_path)
+    if not file.exists():
+        source = open_source(clip_path)
+        project_file.create(file, _info(clip_path, source.size, source.seconds))
+
+
+def _info(path: Path, size: tuple[int, int], seconds: np.ndarray) -> ClipInfo:
+    return ClipInfo(path.name, str(path.absolute()), size, np.arange(len(seconds)), seconds)
+
+
+def open_session(state: AppState, path: Path, person: str, at: Path | None = None, clip: Path | None = None) -> Session:
+    """The session of a clip, whose project lies `at` a path, or of a project file.
+
+    `clip` is where a project file's clip lies by now, if it was moved.
 
     Raises GenmojoError as `FrameCache`, `Project.open` and `Project.create`.
     """
@@ -359,11 +376,10 @@ def open_session(
         _check_clip(project, cache, clip or Path(project.info.path), clip is not None)
     else:
         cache = FrameCache(path)
-        file = project_file or project_path(path)
+        file = at or project_path(path)
         file.parent.mkdir(parents=True, exist_ok=True)
-        info = ClipInfo(path.name, str(path.absolute()), cache.size, np.arange(cache.count), cache.seconds)
         try:
-            project = Project.open_or_create(file, info, person)
+            project = Project.open_or_create(file, _info(path, cache.size, cache.seconds), person)
         except GenmojoError:
             cache.close()
             raise

@@ -87,7 +87,7 @@ def test_a_sequence_and_its_beginning_cannot_both_be_had():
         (NEXT, "A", "belongs to “Previous frame”"),  # an alternate of another action
         (NEXT, "F11", "belongs to “Full screen”"),  # of the whole app
         (NEXT, "Ctrl+K, X", "begins with"),
-        ("annotate.point.occluded", "Ctrl+J, X", "takes a single key"),
+        ("annotate.point.occluded", "Ctrl+F12, X", "takes a single key"),
         (NEXT, "Tab", "cannot be given away"),
         ("annotate.view.fit", "Z", "belongs to “Loupe while held”"),
     ],
@@ -111,16 +111,16 @@ def test_the_key_of_another_action_is_taken_over_when_the_offer_is_taken(editor,
 
 
 def test_alternates_are_changed_one_by_one(editor, table):
-    typed(editor, NEXT, "J")
+    typed(editor, NEXT, "F12")
     editor.keys.setCurrentRow(1)
     editor.replace_button.click()
-    assert table.keys(NEXT) == ("Right", "J")
-    typed(editor, NEXT, "Ctrl+J")
+    assert table.keys(NEXT) == ("Right", "F12")
+    typed(editor, NEXT, "Ctrl+F12")
     editor.add_button.click()
-    assert table.keys(NEXT) == ("Right", "J", "Ctrl+J")
+    assert table.keys(NEXT) == ("Right", "F12", "Ctrl+F12")
     editor.keys.setCurrentRow(0)
     editor.remove_button.click()
-    assert table.keys(NEXT) == ("J", "Ctrl+J")
+    assert table.keys(NEXT) == ("F12", "Ctrl+F12")
     editor.reset_button.click()
     assert table.keys(NEXT) == ("Right", "D") and Settings().own_keys() == {}
 
@@ -137,14 +137,14 @@ def test_delivered_keys_that_somebody_else_has_by_now_are_asked_for(editor, tabl
 
 
 def test_a_preset_that_clashes_with_own_keys_is_asked_about(editor, table):
-    typed(editor, "annotate.view.trails", "J")
+    typed(editor, "annotate.view.trails", "F12")
     editor.add_button.click()
     typed(editor, "annotate.view.masks", "/")  # CVAT's second key for occluded
     editor.add_button.click()
     editor.preset.textActivated.emit("CVAT")
     assert table.preset == "Studio" and "Masks" in editor.notice.text() and editor.preset.currentText() == "Studio"
     editor.take_button.click()
-    assert table.preset == "CVAT" and table.conflicts() == [] and "J" in table.keys("annotate.view.trails")
+    assert table.preset == "CVAT" and table.conflicts() == [] and "F12" in table.keys("annotate.view.trails")
     assert editor.preset.currentText() == Settings().text("keys/preset") == "CVAT"
 
 
@@ -154,7 +154,7 @@ def test_keys_go_into_a_file_and_come_back(editor, table, tmp_path, monkeypatch)
     monkeypatch.setattr(dialogs + "getSaveFileName", lambda *a, **k: (str(path), ""))
     monkeypatch.setattr(dialogs + "getOpenFileName", lambda *a, **k: (str(path), ""))
     editor.preset.textActivated.emit("Blender")
-    typed(editor, NEXT, "J")
+    typed(editor, NEXT, "F12")
     editor.add_button.click()
     wanted = {a.id: table.keys(a.id) for a in table}
     editor.export_button.click()
@@ -164,7 +164,7 @@ def test_keys_go_into_a_file_and_come_back(editor, table, tmp_path, monkeypatch)
     assert {a.id: table.keys(a.id) for a in table} != wanted
     editor.import_button.click()
     assert {a.id: table.keys(a.id) for a in table} == wanted and table.preset == "Blender"
-    assert Settings().own_keys() == table.own_keys() == {NEXT: ("Right", "J")}
+    assert Settings().own_keys() == table.own_keys() == {NEXT: ("Right", "F12")}
 
 
 @pytest.mark.parametrize(
@@ -227,8 +227,8 @@ def test_the_sheet_is_searched_shows_the_step_alone_and_the_keys_of_now(sheets, 
     everything = len(texts(sheet))
     sheet.only.setChecked(True)
     assert 20 < len(texts(sheet)) < everything
-    table.set_keys("annotate.view.loupe", ("J",))
-    qtbot.waitUntil(lambda: any("Hold J" in row[0] for row in texts(sheet)), timeout=60_000)
+    table.set_keys("annotate.view.loupe", ("F12",))
+    qtbot.waitUntil(lambda: any("Hold F12" in row[0] for row in texts(sheet)), timeout=60_000)
 
 
 def test_all_actions_that_are_held_are_marked(table):

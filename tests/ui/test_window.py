@@ -301,3 +301,18 @@ def test_a_clip_that_is_half_open_in_the_annotator_opens_whole_or_not_at_all(win
     assert list(parts) == []
     list(annotate.opening(tmp_path / "one"))  # nobody holds its project
     assert not annotate.session.project.read_only and annotate.objects is not None
+
+
+def test_the_project_of_a_clip_is_made_on_a_thread(window, qtbot, tmp_path, monkeypatch):
+    """A slow disk does not hold up the window."""
+    import threading
+
+    from genmojo_core.clip import synthetic, synthetic_files
+    from genmojo_core.store import project_file
+
+    synthetic_files.write(*synthetic.generate("crossing-shapes"), tmp_path / "fresh")
+    made, create = [], project_file.create
+    monkeypatch.setattr(project_file, "create", lambda *a: (made.append(threading.current_thread()), create(*a)))
+    window.read_clip(tmp_path / "fresh", "annotate")
+    qtbot.waitUntil(lambda: getattr(window.workspaces.get("annotate"), "session", None) is not None, timeout=60_000)
+    assert len(made) == 1 and threading.main_thread() not in made
