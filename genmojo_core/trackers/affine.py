@@ -20,6 +20,12 @@ def joined(outer: np.ndarray, inner: np.ndarray) -> np.ndarray:
     return outer @ np.vstack([inner, [0.0, 0.0, 1.0]])
 
 
+def inverted(affine: np.ndarray) -> np.ndarray:
+    """The affine (2, 3) that undoes one; whoever fits keeps them from being flat (`robust_affine`)."""
+    linear = np.linalg.inv(affine[:, :2])
+    return np.concatenate([linear, -(linear @ affine[:, 2])[:, None]], axis=1)
+
+
 def fit_affine(source: np.ndarray, target: np.ndarray, fallback: np.ndarray) -> np.ndarray:  # (n, 2), (n, 2) -> (2, 3)
     """The affine nearest to the fallback in shape that brings n known points to where they are.
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from genmojo_core.trackers.affine import applied, fit_affine, joined, robust_affine
+from genmojo_core.trackers.affine import applied, fit_affine, inverted, joined, robust_affine
 from genmojo_core.trackers.search import best_shifts
 from genmojo_core.trackers.stabilise import Grid, Layer, Link, Matcher, grid_of
 
@@ -143,11 +143,19 @@ class ObjectMotion:
         return Path(affine, smooth, amount, link.weight, link.score)
 
     def _chain(self, s: int, t: int) -> np.ndarray:  # (2, 3)
-        """The affine from s to t through a link already made and a further one, else the last motion, else none."""
+        """Where to begin from s to t: two links half as long, the way back turned round, the last motion, or none."""
         direction = 1 if t > s else -1
-        middle = t - direction
-        first, second = self._paths.get((s, middle)), self._paths.get((middle, t))
-        if middle != s and first is not None and second is not None:
-            return joined(second.affine, first.affine)
-        before = self._paths.get((s - direction, s))
-        return before.affine if middle == s and before is not None else np.eye(2, 3)
+        if abs(t - s) > 1:
+            middle = self._between(s, t)
+            first, second = (self.path(s, middle), self.path(middle, t)) if middle is not None else (None, None)
+            return joined(second.affine, first.affine) if first is not None and second is not None else np.eye(2, 3)
+        back, before = self._paths.get((t, s)), self._paths.get((s - direction, s))
+        if back is not None:
+            return inverted(back.affine)
+        return before.affine if before is not None else np.eye(2, 3)
+
+    def _between(self, s: int, t: int) -> int | None:
+        """The frame nearest to the middle of two, rounded towards t, that shows the object; None if none does."""
+        middle = s + int(np.sign(t - s)) * ((abs(t - s) + 1) // 2)
+        between = [m for m in range(min(s, t) + 1, max(s, t)) if self.grid(m) is not None]
+        return min(between, key=lambda m: abs(m - middle)) if between else None
