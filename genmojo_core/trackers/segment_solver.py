@@ -18,6 +18,7 @@ from genmojo_core.trackers.object_motion import ObjectMotion
 
 SPANS = (1, 2, 3, 4, 6, 8)  # frames between the ends of a link
 GUIDED = 0.03  # weight of going as a proposal does, times its confidence: keys, px and OA of acceptance 5
+FADE = 1.5  # power of the frames between the ends by which a link counts less: keys and px of acceptance 5
 HIDDEN = 0.03  # weight of the object's motion where the point's own match is not seen
 SMOOTH = 0.006  # weight of going straight on
 _SCALE = 0.6  # held px of disagreement from which a link counts less
@@ -71,7 +72,7 @@ def _seen(
     linear = np.stack([motion.linear(int(a), int(b)) for a, b in zip(s, t, strict=True)])
     place, own, trust = (np.stack([f[2][part] for f in found]) for part in range(3))
     place += np.swapaxes(slid[:, t] - slid[:, s], 0, 1)
-    return s, t, linear, place, np.maximum(own, HIDDEN * trust) / np.sqrt(np.abs(s - t))[:, None]
+    return s, t, linear, place, np.maximum(own, HIDDEN * trust) / (np.abs(s - t)[:, None] ** FADE)
 
 
 def _guided(motion: ObjectMotion, guide: Guide, n: int, xy: np.ndarray, span: tuple[int, int]) -> _Edges:
