@@ -28,7 +28,7 @@ from genmojo_core.store.project_file import ClipInfo, Loaded
 from genmojo_core.store.project_log import Row
 from genmojo_core.store.project_news import News
 from genmojo_core.store.safe import json_text
-from genmojo_core.tracks.annotation import Proposal
+from genmojo_core.tracks.annotation import EARLIER, Proposal
 from genmojo_core.tracks.edits import Edit, ObjectChange, ProposalChange, TrackChange
 
 _SNAPSHOT_EVERY = 300  # edits after which opening gets a shortcut
@@ -164,8 +164,13 @@ class Project:
         return [row for row in self.log.rows if row.verb == "do"]
 
     def propose(self, track: int, proposal: Proposal) -> None:
-        """Keep a tracker's proposal, untouched, beside the track."""
+        """Keep a tracker's proposal, untouched, beside the track; the one before it of the same tracker stays, too."""
         self._check_writable()
+        before = self.annotation.proposals.get(track, {}).get(proposal.tracker)
+        if before is not None and not np.array_equal(before.xy, proposal.xy):
+            older = replace(before, tracker=f"{proposal.tracker}{EARLIER}")
+            self.annotation.propose(track, older)
+            self.put_blob(_proposal_name(track, older.tracker), encode_proposal(older))
         self.annotation.propose(track, proposal)
         self.put_blob(_proposal_name(track, proposal.tracker), encode_proposal(proposal))
 

@@ -30,6 +30,7 @@ from genmojo_core.tracks.model import NONE, VISIBLE
 from genmojo_core.tracks.suspicion import Evidence
 
 SHORT_SIDE = 540  # held px from which more only costs time
+OPTICAL = "optical"
 _SLACK = 4.0  # source px at 1080p by which a link may miss a key before it is matched again
 
 
@@ -82,6 +83,16 @@ class SolveAnswer:
         made = [part for part in parts if part.changes]
         title = made[0].title if len(made) == 1 else say("solve_tracks", count=len(made))
         return join("solve", title, made)
+
+    def proposals(self, frames: int) -> dict[int, Proposal]:
+        """What was found, as proposals named "optical" over all frames: what later solutions are held to."""
+        kept = {}
+        for track, (at, found) in self.found.items():
+            cells = Cells.empty(frames)
+            for mine, theirs in zip(cells.arrays(), found.arrays(), strict=True):
+                mine[at] = theirs
+            kept[track] = Proposal(OPTICAL, cells.xy, cells.state, cells.conf)
+        return kept
 
 
 class TrackSolver:

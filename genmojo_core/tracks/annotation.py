@@ -20,6 +20,7 @@ from genmojo_core.tracks.model import NONE, VISIBLE, PointTracks
 KEY, UNCERTAIN, CONFIRMED, SNAPPED, PAINTED = 1, 2, 4, 8, 16  # flags: a person placed it; ...; gave its state
 HUMAN, TRACKER, FLOW, LINEAR, IMPORT, HOLD = 1, 2, 3, 4, 5, 6  # source of a position; 0 for none
 SCENE, COTRACKER, FILE = 7, 8, 9  # ... by the proposal of that tracker, which goes on to lead it between new keys
+EARLIER = " before"  # behind a tracker's name: what it proposed the time before
 PROPOSED = {"scene": SCENE, "cotracker": COTRACKER, "file": FILE}
 BY_TRACKER, BY_LINE, BY_HOLD = 0, 1, 2  # mode of the segment that begins at a key
 

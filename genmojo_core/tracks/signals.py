@@ -6,11 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from genmojo_core.tracks.annotation import KEY, Cells
+from genmojo_core.tracks.annotation import CONFIRMED, KEY, PROPOSED, Cells, Proposal
+from genmojo_core.tracks.interpolate import through
 from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE
 
 _WINDOW = 9  # frames over which motion is compared
 _BORDER = 4.0  # px at 1080p
+_USUAL_SIZE = 400.0  # px at 1080p: an object for which errors in pixels count as they are
+_SIZES = (100.0, 700.0)  # smaller objects and larger ones are not told apart
 
 
 @dataclass(frozen=True)
@@ -23,8 +26,44 @@ class Scene:
     scale: np.ndarray
 
 
+def object_size(cells: Cells, others: list[Cells], scene: Scene | None, owner: int, unit: float) -> float:
+    """Side in source px of an object: of its masks, else of where its points are, else what is usual."""
+    sides: list[float] = []
+    if scene is not None and owner in scene.label_of:
+        frames = np.unique(np.linspace(0, len(cells) - 1, 12).astype(int))
+        thin = scene.labels[frames, ::4, ::4] == scene.label_of[owner]
+        area = 16.0 * thin.sum(axis=(1, 2)) / float(np.prod(scene.scale))
+        sides = np.sqrt(area[area > 0]).tolist()
+    elif len(others) >= 2:
+        xy = np.stack([c.xy for c in (cells, *others)]).astype(float)
+        known = np.stack([c.state != NONE for c in (cells, *others)])
+        xy[~known] = np.nan
+        spans = [float(np.ptp(xy[known[:, t], t], axis=0).max()) for t in np.flatnonzero(known.sum(axis=0) >= 3)]
+        sides = [s for s in spans if s > 0]
+    size = float(np.median(sides)) if sides else _USUAL_SIZE * unit
+    return float(np.clip(size, _SIZES[0] * unit, _SIZES[1] * unit))
+
+
 def kinematics(cells: Cells, others: list[Cells], unit: float) -> np.ndarray:
-    """Acceleration, after that of the object's other points is taken out, against what is usual around the frame."""
+    """Acceleration and speed, after those of the object's other points are taken out, against what is usual around."""
+    return np.maximum(_acceleration_doubt(cells, others, unit), _speed_doubt(cells, others, unit))
+
+
+def _speed_doubt(cells: Cells, others: list[Cells], unit: float) -> np.ndarray:
+    """Robust z of the speed; what an object turns and bends by grows with its motion and is no error."""
+    own, rest = _velocity(cells), [_velocity(o) for o in others]
+    moving = np.ma.median(np.ma.masked_invalid(np.stack(rest)), axis=0).filled(0.0) if len(rest) >= 2 else 0.0 * own
+    speed = np.nan_to_num(np.linalg.norm(own - moving, axis=1))
+    pace = np.nan_to_num(np.linalg.norm(moving if len(rest) >= 2 else own, axis=1))
+    windows = [slice(max(t - _WINDOW, 0), t + _WINDOW + 1) for t in range(len(speed))]
+    usual = np.array([np.median(speed[w]) for w in windows])
+    spread = np.array([1.4826 * np.median(np.abs(speed[w] - np.median(speed[w]))) for w in windows])
+    pace = np.array([np.median(pace[w]) for w in windows])
+    step = _rising((speed - usual) / (spread + 0.1 * pace + 1.5 * unit), 3.0, 9.0)
+    return np.maximum(step, np.append(step[1:], 0.0))  # both ends of a fast step
+
+
+def _acceleration_doubt(cells: Cells, others: list[Cells], unit: float) -> np.ndarray:
     known = cells.state != NONE
     own = _acceleration(cells)
     rest = [_acceleration(o) for o in others]
@@ -37,11 +76,13 @@ def kinematics(cells: Cells, others: list[Cells], unit: float) -> np.ndarray:
     return _rising((size - usual) / (1.5 * usual + 2.0 * unit), 2.0, 6.0)
 
 
-def links(cells: Cells, gap: np.ndarray | None, unit: float) -> np.ndarray:
-    """Distance to where matches from frames nearby put the point (forward and backward error), where it is seen."""
+def links(cells: Cells, gap: np.ndarray | None, size: float) -> np.ndarray:
+    """Distance to where matches from frames nearby put the point (forward and backward error) over the object's size,
+    where it is seen."""
     if gap is None:
         return np.zeros(len(cells))
-    return _rising(np.where(cells.state == VISIBLE, np.nan_to_num(gap), 0.0) / unit, 2.5, 8.0)
+    seen = np.where(cells.state == VISIBLE, np.nan_to_num(gap), 0.0)
+    return _rising(seen / size * _USUAL_SIZE, 2.5, 8.0)
 
 
 def look(likeness: np.ndarray | None, cells: Cells) -> np.ndarray:
@@ -52,11 +93,32 @@ def look(likeness: np.ndarray | None, cells: Cells) -> np.ndarray:
     return np.where(cells.state == VISIBLE, _rising(np.nan_to_num(drop), 0.15, 0.6), 0.0)
 
 
-def other_tracker(cells: Cells, other: np.ndarray | None, unit: float) -> np.ndarray:
-    """Distance to a second tracker's place."""
-    if other is None:
+def opinions(cells: Cells, proposals: dict[str, Proposal]) -> np.ndarray:
+    """Distances (T,) in source px to where other trackers, or the seed, have the point; NaN where none says anything.
+
+    Each is led through the keys and accepted places first, so what a person put right is held against nobody. Where
+    several speak, the one that the place came from is left out.
+    """
+    if not proposals:
+        return np.full(len(cells), np.nan)
+    codes = {code: name for name, code in PROPOSED.items()}
+    sure = np.flatnonzero(((cells.flags & (KEY | CONFIRMED)) > 0) & (cells.state != NONE))
+    away = np.full((len(proposals), len(cells)), np.nan)
+    for row, (name, proposal) in enumerate(proposals.items()):
+        told = (proposal.state != NONE) & (cells.state == VISIBLE)
+        way = through(proposal.xy.astype(np.float32), proposal.state != NONE, sure, cells.xy[sure])
+        away[row, told] = np.linalg.norm(way - cells.xy, axis=1)[told]
+        own = np.array([codes.get(int(s)) == name for s in cells.source]) & (len(proposals) > 1)
+        away[row, own] = np.nan
+    none = np.isnan(away).all(axis=0)
+    return np.where(none, np.nan, np.nanmax(np.where(np.isnan(away), -1.0, away), axis=0))
+
+
+def other_tracker(cells: Cells, away: np.ndarray | None, size: float) -> np.ndarray:
+    """Distance (T,) to a second opinion over the object's size."""
+    if away is None:
         return np.zeros(len(cells))
-    return _rising(np.nan_to_num(np.linalg.norm(cells.xy - other, axis=1)) / unit, 4.0, 16.0)
+    return _rising(np.nan_to_num(away) / size * _USUAL_SIZE, 4.0, 16.0)
 
 
 def mask(cells: Cells, scene: Scene | None, owner: int, agreement: np.ndarray | None) -> np.ndarray:
@@ -122,6 +184,13 @@ def away_from_keys(cells: Cells) -> np.ndarray:
         return np.ones(len(cells))
     away = np.abs(np.arange(len(cells))[:, None] - keys[None]).min(axis=1)
     return away / (away + 10.0)
+
+
+def _velocity(cells: Cells) -> np.ndarray:  # (T, 2) from the frame before, NaN where one is unknown
+    out = np.full((len(cells), 2), np.nan)
+    xy = np.where((cells.state == NONE)[:, None], np.nan, cells.xy)
+    out[1:] = xy[1:] - xy[:-1]
+    return out
 
 
 def _acceleration(cells: Cells) -> np.ndarray:  # (T, 2), NaN where a neighbour is unknown

@@ -24,11 +24,13 @@ from genmojo_core.tracks.signals import (
     links,
     look,
     mask,
+    object_size,
+    opinions,
     other_tracker,
 )
 
 TRUST = MappingProxyType({
-    "motion": 0.75, "links": 0.8, "look": 0.35, "trackers": 0.5, "mask": 0.9, "affine": 0.7, "flicker": 0.6,
+    "motion": 0.75, "links": 0.8, "look": 0.35, "trackers": 0.5, "mask": 0.97, "affine": 0.7, "flicker": 0.6,
     "confidence": 0.3, "keys": 0.1,
 })  # fmt: skip
 SIGNALS = MappingProxyType({name: say(f"doubt_{name}") for name in TRUST})  # in words
@@ -173,12 +175,14 @@ def _parts(
     scene, evidence = known
     unit = max(annotation.size[1] / 1080.0, 1e-6)  # px that are one at 1080p
     owner = annotation.tracks[track].object
-    second = evidence.other
-    if second is None and annotation.proposals.get(track):
-        second = next(iter(annotation.proposals[track].values())).xy
+    size = object_size(cells, others, scene, owner, unit)
+    if evidence.other is None:
+        away = opinions(cells, annotation.proposals.get(track, {}))
+    else:
+        away = np.linalg.norm(cells.xy - evidence.other, axis=1)
     parts = np.stack([
-        kinematics(cells, others, unit), links(cells, evidence.gap, unit), look(evidence.likeness, cells),
-        other_tracker(cells, second, unit), mask(cells, scene, owner, evidence.agreement),
+        kinematics(cells, others, unit), links(cells, evidence.gap, size), look(evidence.likeness, cells),
+        other_tracker(cells, away, size), mask(cells, scene, owner, evidence.agreement),
         affine_residual(cells, others, unit), flicker(cells, annotation.size), confidence(cells), away_from_keys(cells),
     ])  # fmt: skip
     return np.clip(np.nan_to_num(parts), 0.0, 1.0)

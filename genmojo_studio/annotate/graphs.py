@@ -17,6 +17,7 @@ from genmojo_core.tracks.annotation import KEY
 from genmojo_core.tracks.model import NONE
 from genmojo_studio.annotate.colours import point_colour
 from genmojo_studio.annotate.session import Session
+from genmojo_studio.annotate.signal_bars import SignalBars
 from genmojo_studio.annotate.time_view import TimeView
 from genmojo_studio.translate import tr
 
@@ -94,6 +95,8 @@ class Graphs(QWidget):
         row.setContentsMargins(4, 4, 4, 4)
         left = QVBoxLayout()
         left.addWidget(self.choice)
+        self.bars = SignalBars(session)
+        left.addWidget(self.bars)
         left.addStretch()
         row.addLayout(left)
         row.addWidget(self.plot, 1)

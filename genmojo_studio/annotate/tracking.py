@@ -172,8 +172,9 @@ class Tracking(QObject):
         parts = [answer.edit(annotation) for answer in answers]
         made = [part for part in parts if part.changes]
         count = sum(len(answer.found) for answer in answers)
-        if made:
-            self._session.do(join("seed", say("seed", count=count), made))
+        if made and self._session.do(join("seed", say("seed", count=count), made)) is not None:
+            for track, kept in (pair for answer in answers for pair in answer.proposals(annotation.frames).items()):
+                self._session.project.propose(track, kept)  # a second opinion, once segments are solved again
         self._stale |= {answer.request.object_id for answer in answers}
         self._look.start()
         self._tell_seeded(count, [], left_out)

@@ -2248,6 +2248,14 @@
       <translation>verdächtig ({n} von 9)</translation>
     </message>
     <message>
+      <source>What speaks against the place of the active point in this frame, after what corrections taught: 0 nothing, 1 surely wrong. Together they make the suspicion.</source>
+      <translation>Was in diesem Bild gegen den Ort des aktiven Punkts spricht, nach dem, was Korrekturen gelehrt haben: 0 nichts, 1 sicher falsch. Zusammen ergeben sie den Verdacht.</translation>
+    </message>
+    <message>
+      <source>Nothing was judged yet.</source>
+      <translation>Noch wurde nichts beurteilt.</translation>
+    </message>
+    <message>
       <source>Accept, go on</source>
       <translation>Bestätigen</translation>
     </message>

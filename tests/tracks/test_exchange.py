@@ -206,3 +206,17 @@ def test_proposals_go_along_and_survive_closing_undone_and_done_again(tmp_path) 
     assert not project.annotation.proposals.get(1)
     assert project.annotation.proposals[int(edit.track or 0)]["scene"].xy[:, 0].tolist() == swapped[0]
     project.close()
+
+
+def test_the_proposal_before_stays_beside_the_new_one_and_survives_closing(tmp_path) -> None:
+    project = Project.create(tmp_path / "p.genmojo", info_of(FRAMES, annotations.SIZE), "Ada")
+    project.do(edit_tracks.put_objects(project.annotation, [ObjectInfo(1, "dog", 1, "chosen")]))
+    project.do(edit_tracks.add_track(project.annotation, 1, 1))
+    for x in (1.0, 1.0, 2.0, 3.0):
+        xy = np.full((FRAMES, 2), x, np.float32)
+        project.propose(1, Proposal("optical", xy, np.ones(FRAMES, np.uint8), np.ones(FRAMES, np.float32)))
+    project.close()
+    project = Project.open(tmp_path / "p.genmojo", "Ada")
+    kept = {name: float(p.xy[0, 0]) for name, p in project.annotation.proposals[1].items()}
+    project.close()
+    assert kept == {"optical": 3.0, "optical before": 2.0}

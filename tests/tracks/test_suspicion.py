@@ -14,9 +14,9 @@ import simulated_annotator
 from genmojo_core.trackers.evidence import scene_of
 from genmojo_core.trackers.solver import SolveRequest, TrackSolver
 from genmojo_core.tracks import keys, suspicion
-from genmojo_core.tracks.annotation import Annotation
+from genmojo_core.tracks.annotation import Annotation, Proposal
 from genmojo_core.tracks.model import OCCLUDED, VISIBLE
-from genmojo_core.tracks.signals import Scene
+from genmojo_core.tracks.signals import Scene, _speed_doubt, links, object_size, other_tracker
 from genmojo_core.tracks.suspicion import Calibration, Evidence, assess, queue
 
 DATA = Path(__file__).parents[3] / "shared" / "data"
@@ -170,3 +170,42 @@ def test_nine_of_ten_errors_are_in_the_first_fifth_of_the_queue(name: str) -> No
         shares.append(injected_errors.found_share(spots, errors)[0])
     assert (annotation.track(1).state == VISIBLE).any()
     assert np.mean(shares) >= 0.9
+
+
+def test_a_sudden_change_of_speed_speaks_and_the_pace_of_the_object_does_not() -> None:
+    steady, fast = moving(), moving()
+    shifted(fast, 3, 10, 13, (24.0, 0.0))
+    motion = list(suspicion.SIGNALS).index("motion")
+    assert assess(steady)[3].parts[motion].max() < 0.1
+    cells = fast.track(3)
+    others = [fast.track(t) for t in fast.tracks if t != 3]
+    for t in (9, 10, 13, 14):  # both ends of the step in and of the step out
+        assert _speed_doubt(cells, others, 1.0)[t] > 0.5
+    assert _speed_doubt(cells, others, 1.0)[:8].max() == 0
+
+
+def test_errors_count_against_the_size_of_the_object() -> None:
+    annotation = moving()
+    cells, gap = annotation.track(2), np.full(24, 6.0)
+    small, large = links(cells, gap, 120.0), links(cells, gap, 600.0)
+    assert (small > large + 0.2).all()
+    away = np.full(24, 8.0)
+    assert other_tracker(cells, away, 120.0).min() > other_tracker(cells, away, 600.0).max() + 0.2
+    scene = masks_around(annotation)  # 280 x 140 mask px at a quarter of the size
+    assert object_size(cells, [], scene, 1, 1.0) == pytest.approx(4 * np.sqrt(280 * 140), rel=0.3)
+
+
+def test_a_second_opinion_speaks_where_it_differs_and_not_where_a_person_put_a_point_right() -> None:
+    annotation = moving()
+    trackers = list(suspicion.SIGNALS).index("trackers")
+    xy = annotation.track(3).xy.copy()
+    xy[10:16] += np.float32(40.0)
+    annotation.propose(3, Proposal("optical", xy, np.full(24, VISIBLE, np.uint8), np.ones(24, np.float32)))
+    found = assess(annotation)[3]
+    assert found.parts[trackers, 11:15].min() > 0.3
+    assert found.parts[trackers, :9].max() == 0
+    assert "trackers disagree" in found.reasons(12)
+    xy = annotation.track(3).xy.copy()
+    annotation.propose(3, Proposal("optical", xy, np.full(24, VISIBLE, np.uint8), np.ones(24, np.float32)))
+    keys.set_key(annotation, 3, 12, (float(xy[12, 0]) + 30, float(xy[12, 1]))).do(annotation)
+    assert assess(annotation)[3].parts[trackers].max() < 0.3
