@@ -12,7 +12,7 @@ from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE
 
 _WINDOW = 9  # frames over which motion is compared
 _BORDER = 4.0  # px at 1080p
-_USUAL_SIZE = 400.0  # px at 1080p: an object for which errors in pixels count as they are
+_USUAL_SIZE = 370.0  # px at 1080p: an object for which errors in pixels count as they are
 _SIZES = (100.0, 700.0)  # smaller objects and larger ones are not told apart
 
 
@@ -82,7 +82,7 @@ def links(cells: Cells, gap: np.ndarray | None, size: float) -> np.ndarray:
     if gap is None:
         return np.zeros(len(cells))
     seen = np.where(cells.state == VISIBLE, np.nan_to_num(gap), 0.0)
-    return _rising(seen / size * _USUAL_SIZE, 2.5, 8.0)
+    return _rising(seen / size * _USUAL_SIZE, 2.4, 7.7)
 
 
 def look(likeness: np.ndarray | None, cells: Cells) -> np.ndarray:
