@@ -322,6 +322,8 @@ class Hands:
         objects = self._s.objects()
         if place <= len(objects):
             self._s.select(objects[place - 1].id, self._s.active[1])
+        else:
+            self._s.said.emit(tr("There is no object {n} in the order.").format(n=place))
 
     def _panel(self, name: str) -> None:
         """Show or hide a panel, as the cross in its title does."""

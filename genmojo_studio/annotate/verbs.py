@@ -89,6 +89,8 @@ def toggle_key(session: Session) -> None:
         attempt(session, lambda: keys.remove_key(session.annotation, track, session.frame))
     elif cells.state[0] != NONE:
         set_key(session, track, (float(cells.xy[0, 0]), float(cells.xy[0, 1])))
+    else:
+        session.said.emit(tr("The point has no place in this frame."))
 
 
 def delete_key(session: Session) -> None:
@@ -204,9 +206,12 @@ def set_mode(session: Session, mode: int | None = None) -> None:
 def clear(session: Session, *, after: bool) -> None:
     """Forget the active track after or before the frame."""
     track, frame, last = session.track, session.frame, session.annotation.frames - 1
-    if track is None or (frame == last if after else frame == 0):
+    if track is None:
         return
     run = (frame + 1, last) if after else (0, frame - 1)
+    if run[0] > run[1] or not session.annotation.track(track).state[run[0] : run[1] + 1].any():
+        session.said.emit(tr("There is nothing to forget on that side of this frame."))
+        return
     attempt(session, lambda: keys.clear(session.annotation, track, *run))
 
 

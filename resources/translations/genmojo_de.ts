@@ -180,6 +180,10 @@
       <translation>Markiert: Bilder {a} bis {b}. Ein Zustand oder X gilt für sie.</translation>
     </message>
     <message>
+      <source>There is no object {n} in the order.</source>
+      <translation>Es gibt kein Objekt {n} in der Reihenfolge.</translation>
+    </message>
+    <message>
       <source>Pg↑</source>
       <translation>Bild↑</translation>
     </message>
@@ -2846,6 +2850,10 @@
     <message>
       <source>Only between two keys there is a choice: place one on either side.</source>
       <translation>Nur zwischen zwei Schlüsseln gibt es eine Wahl: auf jede Seite einen setzen.</translation>
+    </message>
+    <message>
+      <source>There is nothing to forget on that side of this frame.</source>
+      <translation>Auf dieser Seite des Bildes gibt es nichts zu vergessen.</translation>
     </message>
     <message>
       <source>Unlocked: the track is no longer approved and waits for a decision again.</source>

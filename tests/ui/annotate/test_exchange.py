@@ -147,3 +147,23 @@ def test_what_cannot_be_done_is_said(refined, qtbot):
     refined.table.trigger("annotate.track.split")
     assert said == ["This track has nothing from this frame on; go to an earlier frame."]
     assert not any(d.isVisible() for d in refined.findChildren(ExchangeDialog))
+
+
+def test_commands_that_find_nothing_to_do_say_so(refined, qtbot):
+    session, said = refined.session, []
+    session.said.connect(said.append)
+    for frame, action, words in (
+        (0, "track.clear_before", "nothing to forget"),
+        (session.annotation.frames - 1, "track.clear_after", "nothing to forget"),
+        (3, "point.object_9", "no object 9"),
+    ):
+        session.go(frame)
+        said.clear()
+        head = session.project.log.head
+        refined.table.trigger(f"annotate.{action}")
+        assert any(words in one for one in said), action
+        assert session.project.log.head == head
+    session.do(keys.clear(session.annotation, session.track, 3, 3))
+    said.clear()
+    refined.table.trigger("annotate.point.key")
+    assert said == ["The point has no place in this frame."]
