@@ -12,6 +12,7 @@ from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE
 
 _WINDOW = 9  # frames over which motion is compared
 _BORDER = 4.0  # px at 1080p
+_FITS = 1.3  # links over several frames weigh less than one: this much agreement is all there can be
 _USUAL_SIZE = 370.0  # px at 1080p: an object for which errors in pixels count as they are
 _SIZES = (100.0, 700.0)  # smaller objects and larger ones are not told apart
 
@@ -129,7 +130,7 @@ def mask(cells: Cells, scene: Scene | None, owner: int, agreement: np.ndarray | 
     if scene is None or owner not in scene.label_of:
         return np.zeros(len(cells))
     inside, depth = _inside(cells, scene, owner)
-    fits = np.full(len(cells), 0.3) if agreement is None else np.nan_to_num(agreement)
+    fits = np.full(len(cells), 0.3) if agreement is None else np.clip(_FITS * np.nan_to_num(agreement), 0.0, 1.0)
     outside = _rising(-depth, 1.0, 4.0)
     hidden = np.where(inside, (0.25 + 0.7 * fits) * _rising(depth, 0.5, 3.0), 0.0)
     return np.where(cells.state == VISIBLE, outside, np.where(cells.state == OCCLUDED, hidden, 0.0))
