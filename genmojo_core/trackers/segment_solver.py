@@ -83,7 +83,8 @@ def _guided(motion: ObjectMotion, guide: Guide, n: int, xy: np.ndarray, span: tu
     s, t = (side.ravel() for side in np.meshgrid(reach, reach, indexing="ij"))
     near = np.isin(np.abs(s - t), SPANS)
     s, t = s[near], t[near]
-    linear = np.stack([motion.linear(int(a), int(b)) for a, b in zip(s, t, strict=True)]).reshape(-1, 2, 2)
+    ways = [motion.linear(int(a), int(b)) for a, b in zip(s, t, strict=True)]
+    linear = np.array(ways, np.float64).reshape(-1, 2, 2)  # none where the guide knows nothing nearby
     way = guide.xy[n]
     place = way[t] + np.einsum("mij,mj->mi", linear, xy[s] - way[s])
     weight = GUIDED * np.minimum(guide.conf[n, s], guide.conf[n, t]) / np.sqrt(np.abs(s - t))

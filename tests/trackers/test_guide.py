@@ -100,6 +100,22 @@ def test_a_track_that_was_seeded_from_the_pixels_again_follows_them(covered: Cli
     assert abs(now.xy[5, 1] - proposal.xy[5, 1]) > 0.7 * SWAY
 
 
+def test_a_key_far_from_what_a_file_knows_is_answered_by_the_pixels() -> None:
+    clip = generate(replace(spec("crossing-shapes"), frames=30, size=(112, 63), novel_every=0))[0]
+    annotation, owner = started(clip), int(clip.object_ids[0])
+    solver = TrackSolver(clip)
+    solver.answer(SolveRequest.of(annotation, owner)).edit(annotation).do(annotation)
+    state = np.where(np.arange(len(clip)) < 6, VISIBLE, NONE).astype(np.uint8)
+    proposal = Proposal("file", annotation.track(1).xy.copy(), state, np.full(len(clip), 0.7, np.float32))
+    annotation.propose(1, proposal)
+    keys.accept(annotation, {1: proposal}, PROPOSED["file"]).do(annotation)
+    key_at(annotation, solver, 18, 0.0)
+    key_at(annotation, solver, 27, 0.0)  # its segment begins where the file has long said nothing any more
+    now = annotation.track(1)
+    assert (now.source[19:27] == TRACKER).all() and (now.state != NONE).all()
+    assert (now.source[1:6] == FILE).all()
+
+
 def without(clip: Clip, frames: list[int], known: bool = True) -> Clip:
     """The clip with nothing in the masks of some frames; or with no masks there at all."""
     value, valid = clip.masks.value.copy(), clip.masks.valid.copy()
