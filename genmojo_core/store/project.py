@@ -23,7 +23,7 @@ import numpy as np
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store import project_file, project_news
 from genmojo_core.store.edit_codec import encode_annotation, encode_edit, encode_proposal
-from genmojo_core.store.project_db import Statement, Writer, take_lock
+from genmojo_core.store.project_db import RAISE_VERSION, VERSION, Statement, Writer, take_lock
 from genmojo_core.store.project_file import ClipInfo, Loaded
 from genmojo_core.store.project_log import Row
 from genmojo_core.store.project_news import News
@@ -65,7 +65,7 @@ class Project:
         self._writer: Writer | None = None
         self._lock: IO[bytes] | None = None
         self._recent: dict[int, Edit] = {}
-        self._snapshot_at = loaded.snapshot
+        self._snapshot_at, self._older = loaded.snapshot, loaded.version < VERSION
         if lock is not None:
             self._begin_writing(lock)
 
@@ -306,8 +306,13 @@ class Project:
             if self.saved is not None:
                 self.saved(row.seq, time.monotonic() - began)
 
+        self._put([project_file.row_statement(row, payload, chain), *more], durable)
+
+    def _put(self, statements: list[Statement], done: Callable[[], None] | None = None) -> None:
+        """Hand over what programs older than this one cannot read; they say so from then on."""
         if self._writer is not None:
-            self._writer.put([project_file.row_statement(row, payload, chain), *more], durable)
+            self._writer.put([RAISE_VERSION, *statements] if self._older else statements, done)
+            self._older = False
 
     def _edits(self, wanted: list[int]) -> dict[int, Edit]:
         """Data of edits, from memory or from the file."""
@@ -328,8 +333,8 @@ class Project:
     def _snapshot(self) -> None:
         """Store the whole annotation, so that opening need not replay everything."""
         self._snapshot_at = len(self.log)
-        if self._writer is not None:
-            self._writer.put(project_file.snapshot_statements(len(self.log), encode_annotation(self.annotation)))
+        data = encode_annotation(self.annotation)
+        self._put(project_file.snapshot_statements(len(self.log), data, self.log.chain))
 
     def _check_writable(self) -> None:
         if self.read_only:

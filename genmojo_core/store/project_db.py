@@ -20,7 +20,7 @@ from typing import IO, Any
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.safe import json_text, parse_json
 
-VERSION = 1
+VERSION = 2  # 2: a reviewer's note beside the annotator's, edits that carry proposals, sources of proposals
 _APPLICATION = 0x474D4A4F  # "GMJO"
 _TABLES = """
 CREATE TABLE clip (key TEXT PRIMARY KEY, value TEXT NOT NULL);
@@ -34,6 +34,7 @@ CREATE TABLE blobs (name TEXT PRIMARY KEY, seq INTEGER NOT NULL, data BLOB NOT N
 """
 _REMOTE = ("nfs", "nfs4", "cifs", "smb", "smb2", "smb3", "smbfs", "fuse.sshfs", "afs", "9p", "ceph", "glusterfs")
 Statement = tuple[str, Sequence[Any]]
+RAISE_VERSION: Statement = (f"PRAGMA user_version={VERSION}", ())  # before what older programs would read wrongly
 
 
 @dataclass

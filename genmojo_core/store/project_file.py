@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import sqlite3
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
@@ -68,12 +69,13 @@ def clip_doubt(one: ClipInfo, other: ClipInfo) -> Literal["", "pictures", "times
 
 @dataclass(frozen=True)
 class Loaded:
-    """A project as read; `snapshot` is the number of log rows its shortcut covered."""
+    """A project as read; `snapshot` is the number of log rows its shortcut covered, `version` that of the file."""
 
     annotation: Annotation
     log: Log
     info: ClipInfo
     snapshot: int
+    version: int
 
 
 def create(path: Path, info: ClipInfo) -> None:
@@ -115,16 +117,18 @@ def _read(path: Path, read: Callable[[sqlite3.Connection], _Found]) -> _Found:
 
 @dataclass(frozen=True)
 class Chain:
-    """What checking the hashes of a project found: number of entries, those that do not continue the chain, and numbers
-    of entries that are missing."""
+    """What checking the hashes of a project found: number of entries, those that do not continue the chain, numbers of
+    entries that are missing, and numbers of entries after which another state was kept than they lead to."""
 
     entries: int
     broken: tuple[Row, ...]
     missing: tuple[int, ...]
+    states: tuple[int, ...] = ()
 
 
 def check_chain(path: Path) -> Chain:
-    """Whether every entry of the log is as it was made and follows the one before. Raises as `load`."""
+    """Whether every entry of the log is as it was made and follows the one before, and whether the states that are kept
+    as shortcuts are those that the entries lead to. Raises as `load`."""
     broken: list[Row] = []
     missing: list[int] = []
     count = 0
@@ -137,14 +141,16 @@ def check_chain(path: Path) -> Chain:
             if row.hash(payload, previous) != stored and row.seq == count + 1:
                 broken.append(row)
             previous, count = stored, row.seq
-    return Chain(count - len(missing), tuple(broken), tuple(missing))
+        states = () if broken or missing else _other_states(connection)
+    return Chain(count - len(missing), tuple(broken), tuple(missing), states)
 
 
 def verify(path: Path) -> list[str]:
     """Faults of a project: rows whose hash does not continue the chain. Raises as `load`."""
     chain = check_chain(path)
     return [*(f"edit {number} is missing" for number in chain.missing),
-            *(f"edit {row.seq} ({row.title}) was changed after it was made" for row in chain.broken)]  # fmt: skip
+            *(f"edit {row.seq} ({row.title}) was changed after it was made" for row in chain.broken),
+            *(f"the state kept after edit {n} is not what the edits lead to" for n in chain.states)]  # fmt: skip
 
 
 def edits(path: Path, rows: Sequence[Row]) -> dict[int, Edit]:
@@ -167,9 +173,11 @@ def row_statement(row: Row, payload: bytes, chain: bytes) -> Statement:
     return f"INSERT INTO edits ({COLUMNS}, payload, hash) VALUES ({', '.join('?' * 13)})", values
 
 
-def snapshot_statements(rows: int, data: bytes) -> list[Statement]:
-    """Statements that store the annotation after so many rows and forget older ones but the last two."""
-    return [("INSERT OR REPLACE INTO blobs (name, seq, data) VALUES (?, ?, ?)", (f"snapshot:{rows}", rows, data)),
+def snapshot_statements(rows: int, data: bytes, chain: bytes) -> list[Statement]:
+    """Statements that store the annotation after so many rows, of which the last has the hash `chain`, and forget older
+    ones but the last two. Its name has a hash of both, so that one that was changed is not believed."""
+    name = f"snapshot:{rows}:{_snapshot_hash(chain, data)}"
+    return [("INSERT OR REPLACE INTO blobs (name, seq, data) VALUES (?, ?, ?)", (name, rows, data)),
             ("DELETE FROM blobs WHERE name LIKE 'snapshot:%' AND seq NOT IN (SELECT seq FROM blobs WHERE name LIKE "
              "'snapshot:%' ORDER BY seq DESC LIMIT 3)", ())]  # fmt: skip
 
@@ -245,19 +253,49 @@ def _loaded(connection: sqlite3.Connection, path: Path) -> Loaded:
         track = int(name.split(":")[1])
         if track in annotation.tracks:
             annotation.propose(track, decode_proposal(data))
-    return Loaded(annotation, log, info, covered)
+    version = int(connection.execute("PRAGMA user_version").fetchone()[0])
+    return Loaded(annotation, log, info, covered, version)
 
 
 def _newest_snapshot(connection: sqlite3.Connection, info: ClipInfo, rows: int) -> tuple[Annotation, int]:
-    """The annotation of the newest shortcut that can be read, and how many rows it covers."""
-    found = connection.execute("SELECT seq, data FROM blobs WHERE name LIKE 'snapshot:%' ORDER BY seq DESC")
-    for covered, data in found:
+    """The annotation of the newest shortcut that can be believed, and how many rows it covers."""
+    for covered, annotation in _snapshots(connection):
+        if annotation is not None and covered <= rows:
+            return annotation, covered
+    return Annotation(info.frames, info.size), ROOT  # the whole history will do
+
+
+def _snapshots(connection: sqlite3.Connection) -> Iterator[tuple[int, Annotation | None]]:
+    """Shortcuts, newest first: rows covered and the annotation, None if it was changed or cannot be read."""
+    found = connection.execute("SELECT name, blobs.seq, data, hash FROM blobs LEFT JOIN edits ON edits.seq = blobs.seq "
+                               "WHERE name LIKE 'snapshot:%' ORDER BY blobs.seq DESC")  # fmt: skip
+    for name, covered, data, chain in found:
+        told = name.split(":")[2:]  # none in files of version 1
         try:
-            if covered <= rows:
-                return decode_annotation(data), covered
+            true = not told or told[0] == _snapshot_hash(chain or b"", data)
+            yield covered, decode_annotation(data) if true else None
         except GenmojoError:
-            continue  # an older one, or the whole history, will do
-    return Annotation(info.frames, info.size), ROOT
+            yield covered, None
+
+
+def _snapshot_hash(chain: bytes, data: bytes) -> str:
+    return hashlib.sha256(chain + data).hexdigest()
+
+
+def _other_states(connection: sqlite3.Connection) -> tuple[int, ...]:
+    """Rows after which a shortcut holds another annotation than all rows up to there lead to."""
+    kept: dict[int, list[str]] = {}
+    for covered, annotation in _snapshots(connection):
+        kept.setdefault(covered, []).append("" if annotation is None else annotation.digest())
+    info, log = _clip_info(connection), Log()
+    annotation, wrong = Annotation(info.frames, info.size), []
+    rows = [Row(*columns) for columns in connection.execute(f"SELECT {COLUMNS} FROM edits ORDER BY seq")]
+    for row in rows[: max(kept, default=0)]:
+        _replay(connection, annotation, log, row)
+        log.follow(row)
+        if any(digest != annotation.digest() for digest in kept.pop(row.seq, [])):
+            wrong.append(row.seq)
+    return (*wrong, *sorted(kept))
 
 
 def _replay(connection: sqlite3.Connection, annotation: Annotation, log: Log, row: Row) -> None:

@@ -219,6 +219,9 @@ def chain_words(chain: Chain, known: int) -> str:
         return tr("{n} of {all} lines were changed after they were made. The first: number {first}, “{title}”, "
                   "{when}.").format(n=len(chain.broken), all=chain.entries, first=row.seq, title=told(row.title),
                                     when=audit.local(row.at))  # fmt: skip
+    if chain.states:
+        return tr("All {n} lines are whole, but the state kept after number {first} is not what they lead to: it was "
+                  "changed afterwards.").format(n=chain.entries, first=chain.states[0])  # fmt: skip
     if chain.entries < known:
         return tr("{n} of {all} lines are on the disk and whole; the rest is not written yet.").format(
             n=chain.entries, all=known)  # fmt: skip

@@ -140,6 +140,10 @@
       <translation>{n} von {all} Zeilen wurden nachträglich geändert. Die erste: Nummer {first}, „{title}“, {when}.</translation>
     </message>
     <message>
+      <source>All {n} lines are whole, but the state kept after number {first} is not what they lead to: it was changed afterwards.</source>
+      <translation>Alle {n} Zeilen sind unversehrt, aber der nach Nummer {first} abgelegte Stand ist nicht der, zu dem sie führen: er wurde nachträglich geändert.</translation>
+    </message>
+    <message>
       <source>{n} of {all} lines are on the disk and whole; the rest is not written yet.</source>
       <translation>{n} von {all} Zeilen sind gespeichert und unversehrt; der Rest ist noch nicht geschrieben.</translation>
     </message>

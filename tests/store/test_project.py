@@ -250,7 +250,7 @@ def test_files_that_are_no_sound_project_are_refused_in_one_sentence(tmp_path: P
     with sqlite3.connect(tmp_path / "new.genmojo") as connection:
         connection.execute("PRAGMA user_version=9")
     connection.close()
-    with pytest.raises(GenmojoError, match="version 9, this program knows up to 1"):
+    with pytest.raises(GenmojoError, match="version 9, this program knows up to 2"):
         Project.open(tmp_path / "new.genmojo")
     with pytest.raises(GenmojoError, match="exists already"):
         begun(tmp_path / "new.genmojo")
@@ -267,6 +267,59 @@ def test_a_damaged_shortcut_is_not_needed(tmp_path: Path) -> None:
     project = Project.open(tmp_path / "p.genmojo")
     assert project.annotation.digest() == expected
     project.close()
+
+
+def test_a_changed_shortcut_is_not_believed_and_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "p.genmojo"
+    project = begun(path)
+    random_history(project, 40, 5)
+    expected = project.annotation.digest()
+    project.close()
+    assert project_file.check_chain(path).states == ()
+
+    def change(name: str) -> None:
+        """Another annotation is put where the shortcut was, under a name."""
+        other = project_file.load(path).annotation
+        keys.set_key(other, next(iter(other.tracks)), 2, (1.0, 2.0)).do(other)
+        with sqlite3.connect(path) as connection:
+            connection.execute("UPDATE blobs SET data = ?, name = COALESCE(?, name) WHERE name LIKE 'snapshot:%'",
+                               (encode_annotation(other), name or None))  # fmt: skip
+        connection.close()
+
+    change("")
+    rows = len(project.log)
+    assert project_file.load(path).annotation.digest() == expected
+    assert project_file.check_chain(path).states == (rows,)
+    assert project_file.verify(path) == [f"the state kept after edit {rows} is not what the edits lead to"]
+    change(f"snapshot:{rows}")  # as of files of version 1, which say nothing of what was kept
+    assert project_file.check_chain(path).states == (rows,)
+
+
+def test_older_programs_are_kept_out_by_the_first_edit_not_by_a_look(tmp_path: Path) -> None:
+    """They would drop reviewers' notes and know no edits of proposals."""
+    path = tmp_path / "p.genmojo"
+    begun(path).close()
+
+    def version(new: int | None = None) -> int:
+        with sqlite3.connect(path) as connection:
+            if new is not None:
+                connection.execute(f"PRAGMA user_version={new}")
+            found = connection.execute("PRAGMA user_version").fetchone()[0]
+        connection.close()
+        return int(found)
+
+    assert version() == 2
+    assert version(1) == 1
+    project = Project.open(path)
+    project.note_digests({0: "file:00"})
+    project.moved_clip("elsewhere")
+    project.close()
+    assert version() == 1
+    project = Project.open(path)
+    project.do(keys.set_key(project.annotation, 1, 5, (10.0, 20.0)))
+    project.close()
+    assert version() == 2
+    assert [project_file.load(copy).version for copy in project_file.backups(path)] == [1, 1]
 
 
 def test_what_cannot_be_written_is_said_kept_and_can_be_saved_elsewhere(tmp_path: Path) -> None:
