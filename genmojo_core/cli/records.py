@@ -34,11 +34,13 @@ def run_log(args: argparse.Namespace) -> dict[str, Any]:
     path = Path(args.file)
     loaded = project_file.load(path)
     faults = project_file.verify(path)
-    found = [e for e in audit.entries(path)
+    every = audit.entries(path)
+    found = [e for e in every
              if (args.track is None or e.touches(args.track)) and (args.person is None or e.row.who == args.person)
              and (e.stands or not args.standing)]  # fmt: skip
     if args.output:
-        audit.write(found, args.output, loaded.info.name, loaded.annotation.meta.get("consent", ""))
+        people = {name for e in every for name in e.people}
+        audit.write(found, args.output, loaded.info.name, loaded.annotation.meta.get("consent", ""), people)
     return {"file": args.file, "lines": len(found), "undone": sum(not e.stands for e in found), "whole": not faults,
             "faults": faults, **({"path": args.output} if args.output else {}),
             "exit_code": 2 if faults else 0}  # fmt: skip

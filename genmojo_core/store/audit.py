@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from datetime import datetime
@@ -20,10 +20,10 @@ from typing import Any
 import numpy as np
 
 from genmojo_core.errors import GenmojoError
-from genmojo_core.sentences import SENTENCES, origin
 from genmojo_core.store.atomic import write_bytes
 from genmojo_core.store.edit_codec import decode_edit
 from genmojo_core.store.edit_words import Known, Words, words_of
+from genmojo_core.store.nameless import Nameless, people_of
 from genmojo_core.store.project_db import check_file, connect_to_read
 from genmojo_core.store.project_log import COLUMNS, Log, Row
 from genmojo_core.store.safe import json_text
@@ -38,13 +38,14 @@ class Entry:
     """One line of the log.
 
     row: what the project holds. words: what it did, in words and figures. stands: False for an edit that was undone.
-    hash: its link of the chain, in hexadecimal.
+    hash: its link of the chain, in hexadecimal. people: who is named by it.
     """
 
     row: Row
     words: Words
     stands: bool
     hash: str
+    people: frozenset[str] = frozenset()
 
     def touches(self, track: int) -> bool:
         """Whether it changed that track."""
@@ -55,13 +56,12 @@ def entries(path: Path) -> list[Entry]:
     """Every line of a project's log, oldest first. Raises GenmojoError: "io", "format", "version", "corrupt"."""
     if not path.is_file():
         raise GenmojoError("io", "does not exist or is no file", str(path), "check the name")
-    read: list[tuple[Row, Words, str]] = []
+    read: list[tuple[Row, Words, str, frozenset[str]]] = []
     log, known = Log(), Known()
     with closing(connect_to_read(path)) as connection:
         check_file(connection, path)
         for *columns, payload, link in connection.execute(f"SELECT {COLUMNS}, payload, hash FROM edits ORDER BY seq"):
-            row = Row(*columns)
-            words = Words()
+            row, edit, words = Row(*columns), None, Words()
             if row.verb == "do":
                 edit = decode_edit(payload, row.kind, row.title, row.frame, row.track)
                 known.do(row.seq, edit)
@@ -70,24 +70,26 @@ def entries(path: Path) -> list[Entry]:
                 known.move(*log.path(row.parent))
                 words = words_of(Edit(row.kind, row.title, (), row.frame, row.track), known)
             log.follow(row)
-            read.append((row, words, bytes(link).hex()))
+            read.append((row, words, bytes(link).hex(), frozenset(people_of(row, edit))))
     standing = {row.seq for row in log.standing()}
-    return [Entry(row, words, row.verb != "do" or row.seq in standing, link) for row, words, link in read]
+    return [Entry(row, words, row.verb != "do" or row.seq in standing, *more) for row, words, *more in read]
 
 
-def write(found: Sequence[Entry], path: str | Path, clip: str, consent: str) -> None:
+def write(found: Sequence[Entry], path: str | Path, clip: str, consent: str, people: Iterable[str] = ()) -> None:
     """Write the log as JSON where the path ends so, else as CSV.
 
     Args:
         clip: its name, a column. consent: note of the project; unless it is "yes", people are numbered and times of day
-            and hashes are left out.
+            and hashes are left out. people: named by lines that are not written; notes may name them.
     Raises GenmojoError("io").
     """
     rows = [_record(entry, clip) for entry in found]
     if consent != "yes":
-        people = {name: f"person {n + 1}" for n, name in enumerate(dict.fromkeys(r["who"] for r in rows))}
-        rows = [r | {"who": people[r["who"]], "at": r["at"][:10], "hash": "", "before": _nameless(r["before"]),
-                     "after": _nameless(r["after"])} for r in rows]  # fmt: skip
+        number = {name: f"person {n + 1}" for n, name in enumerate(dict.fromkeys(r["who"] for r in rows))}
+        bare = Nameless({*people, *(name for entry in found for name in entry.people)})
+        rows = [r | {"who": number[r["who"]], "at": r["at"][:10], "hash": "", "before": bare.sentences(r["before"]),
+                     "after": bare.sentences(r["after"]), "what": bare.title(r["verb"], r["what"])}
+                for r in rows]  # fmt: skip
     if str(path).lower().endswith(".json"):
         write_bytes(path, json_text({"clip": clip, "log": rows}).encode())
         return
@@ -118,12 +120,6 @@ def _record(entry: Entry, clip: str) -> dict[str, Any]:
         "moved_px": None if not np.isfinite(words.moved) else round(words.moved, 3),
         "keys_before": words.keys[0], "keys_after": words.keys[1], "version": row.version, "hash": entry.hash,
     }  # fmt: skip
-
-
-def _nameless(words: list[str]) -> list[str]:
-    """Sentences but those that name a person."""
-    naming = (SENTENCES["log_person"], SENTENCES["log_reviewer"])
-    return [sentence for sentence in words if origin(sentence)[0] not in naming]
 
 
 def _cell(value: object) -> object:

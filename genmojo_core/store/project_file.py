@@ -6,7 +6,7 @@ import hashlib
 import sqlite3
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Literal, TypeVar
@@ -17,11 +17,11 @@ from genmojo_core.clip import digests
 from genmojo_core.clip.clip import Clip
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store.atomic import staged
-from genmojo_core.store.edit_codec import decode_annotation, decode_edit, decode_proposal, encode_edit
+from genmojo_core.store.edit_codec import decode_annotation, decode_edit, decode_proposal
 from genmojo_core.store.project_db import Statement, check_file, connect, connect_to_read, make_tables
 from genmojo_core.store.project_log import COLUMNS, ROOT, Log, Row
-from genmojo_core.tracks.annotation import Annotation, TrackInfo
-from genmojo_core.tracks.edits import Edit, TrackChange
+from genmojo_core.tracks.annotation import Annotation
+from genmojo_core.tracks.edits import Edit
 
 _KEEP = 10  # newest backup copies; beyond them one a day is kept for _DAYS days
 _DAYS = 14
@@ -180,20 +180,6 @@ def snapshot_statements(rows: int, data: bytes, chain: bytes) -> list[Statement]
     return [("INSERT OR REPLACE INTO blobs (name, seq, data) VALUES (?, ?, ?)", (name, rows, data)),
             ("DELETE FROM blobs WHERE name LIKE 'snapshot:%' AND seq NOT IN (SELECT seq FROM blobs WHERE name LIKE "
              "'snapshot:%' ORDER BY seq DESC LIMIT 3)", ())]  # fmt: skip
-
-
-def payload_without(payload: bytes, row: Row) -> bytes:
-    """An edit's data with persons and reviewers of tracks left out."""
-    if row.verb != "do":
-        return payload
-
-    def bare(info: TrackInfo | None) -> TrackInfo | None:
-        return None if info is None else replace(info, person="", reviewer="")
-
-    edit = decode_edit(payload, row.kind, row.title, row.frame, row.track)
-    changes = tuple(replace(c, before=bare(c.before), after=bare(c.after)) if isinstance(c, TrackChange) else c
-                    for c in edit.changes)  # fmt: skip
-    return encode_edit(replace(edit, changes=changes))
 
 
 def copy(path: Path, target: Path, more: Sequence[Statement] = ()) -> None:

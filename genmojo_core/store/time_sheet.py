@@ -10,7 +10,7 @@ import io
 import sqlite3
 from collections.abc import Mapping, Sequence
 from contextlib import closing
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from datetime import datetime
 from pathlib import Path
 
@@ -18,7 +18,12 @@ from genmojo_core.errors import GenmojoError
 from genmojo_core.store import project_file
 from genmojo_core.store.atomic import write_bytes
 from genmojo_core.store.audit import local
+from genmojo_core.store.edit_codec import decode_edit, encode_edit
+from genmojo_core.store.nameless import Nameless, people_of
+from genmojo_core.store.project_db import RAISE_VERSION
 from genmojo_core.store.project_log import COLUMNS, Row
+from genmojo_core.store.safe import json_text
+from genmojo_core.tracks.edits import Edit
 
 IDLE_SECONDS = 60.0  # a pause longer than this is no work; what came before it counts that long
 
@@ -76,28 +81,36 @@ def write_time_sheet(rows: Sequence[Row], consent: str, path: str | Path, clip: 
 
 def without_people(path: str | Path, target: str | Path) -> None:
     """A copy of a project in which no person is named, no time of day stands and no path (it may hold an account's
-    name); its chain of hashes is made anew. What people wrote into notes stays.
+    name); its chain of hashes is made anew. Notes and names of moments stay, without the names of who worked on it.
 
     Raises GenmojoError("io", "format", "corrupt").
     """
     project_file.copy(Path(path), Path(target))
     loaded = project_file.load(Path(target))
-    people = {name for info in loaded.annotation.tracks.values() for name in (info.person, info.reviewer) if name}
     with closing(sqlite3.connect(target, isolation_level=None)) as connection:
         connection.execute("BEGIN IMMEDIATE")
+        connection.execute(*RAISE_VERSION)
+        found = connection.execute(f"SELECT {COLUMNS}, payload FROM edits ORDER BY seq").fetchall()
+        rows = [(row := Row(*columns), payload, _edit_of(row, payload)) for *columns, payload in found]
+        nameless = Nameless(name for row, _, edit in rows for name in people_of(row, edit))
         chain = b""
-        for *columns, payload in connection.execute(f"SELECT {COLUMNS}, payload FROM edits ORDER BY seq").fetchall():
-            bare = replace(Row(*columns), who="", at=str(columns[COLUMNS.split(", ").index("at")])[:10])
-            clean = project_file.payload_without(payload, bare)
+        for row, payload, edit in rows:
+            bare, clean = nameless.row(row), payload if edit is None else encode_edit(nameless.edit(edit))
             chain = bare.hash(clean, chain)
-            connection.execute("UPDATE edits SET who = '', at = ?, payload = ?, hash = ? WHERE seq = ?",
-                               (bare.at, clean, chain, bare.seq))  # fmt: skip
+            connection.execute("UPDATE edits SET who = '', at = ?, title = ?, payload = ?, hash = ? WHERE seq = ?",
+                               (bare.at, bare.title, clean, chain, bare.seq))  # fmt: skip
         connection.execute("DELETE FROM blobs WHERE name LIKE 'snapshot:%'")
-        for table in ("tracks", "objects"):
-            for number, data in connection.execute(f"SELECT id, data FROM {table}").fetchall():
-                for name in people:
-                    data = data.replace(f'"{name}"', '""')
-                connection.execute(f"UPDATE {table} SET data = ? WHERE id = ?", (data, number))
+        tracks = [nameless.track(info) for info in loaded.annotation.tracks.values()]
+        objects = [nameless.object(info) for info in loaded.annotation.objects.values()]
+        for table, infos in (("tracks", tracks), ("objects", objects)):
+            connection.execute(f"DELETE FROM {table}")
+            connection.executemany(f"INSERT INTO {table} (id, data) VALUES (?, ?)",
+                                   [(info.id, json_text(asdict(info))) for info in infos])  # fmt: skip
         connection.execute("UPDATE clip SET value = ? WHERE key = 'path'", (Path(loaded.info.path).name,))
         connection.execute("COMMIT")
         connection.execute("VACUUM")
+
+
+def _edit_of(row: Row, payload: bytes) -> Edit | None:
+    """What a line of the log did, None where it moved or named something."""
+    return decode_edit(payload, row.kind, row.title, row.frame, row.track) if row.verb == "do" else None
