@@ -72,7 +72,8 @@ def entries(path: Path) -> list[Entry]:
             log.follow(row)
             read.append((row, words, bytes(link).hex(), frozenset(people_of(row, edit))))
     standing = {row.seq for row in log.standing()}
-    return [Entry(row, words, row.verb != "do" or row.seq in standing, *more) for row, words, *more in read]
+    return [Entry(row, words, row.verb != "do" or row.seq in standing, link, people)
+            for row, words, link, people in read]  # fmt: skip
 
 
 def write(found: Sequence[Entry], path: str | Path, clip: str, consent: str, people: Iterable[str] = ()) -> None:
