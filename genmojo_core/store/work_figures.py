@@ -22,7 +22,9 @@ from genmojo_core.store.atomic import write_bytes
 from genmojo_core.store.audit import Entry
 from genmojo_core.store.time_sheet import time_sheet
 from genmojo_core.tracks.annotation import CONFIRMED, KEY, UNCERTAIN, Annotation, TrackInfo
+from genmojo_core.tracks.coverage import open_points
 from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
+from genmojo_core.tracks.review import SETTLED, closed
 
 STRIDE = 2  # of every so many frames one is looked at
 POINTS = 5  # of an object, where the project says nothing else
@@ -172,14 +174,17 @@ def _row(annotation: Annotation, infos: list[TrackInfo], place: tuple[str, str],
 
 
 def _with_eta(row: Figures, annotation: Annotation, stride: int) -> Figures:
-    """The clip's figures with what is left and how long that takes at the pace so far."""
-    wanted = -(-annotation.frames // max(stride, 1))
+    """The clip's figures with what is left in the frames of the stride and how long that takes at the pace so far.
+
+    Points that objects may have beside those they have are left, too, until every track is decided.
+    """
+    frames = np.arange(0, annotation.frames, max(stride, 1))
     most = int(annotation.meta.get("limit_points", POINTS))
     infos = annotation.active()
-    left = sum(max(wanted - _count(annotation, [i.id], KEY | CONFIRMED), 0) for i in infos
-               if i.review not in ("approved", "rejected"))  # fmt: skip
-    for owner in annotation.chosen_objects():
-        left += max(most - sum(i.object == owner.id for i in infos), 0) * wanted
+    undecided = [i.id for i in infos if i.review not in SETTLED]
+    left = int(open_points(annotation, undecided, frames).sum())
+    for owner in annotation.chosen_objects() if not closed(annotation) else ():
+        left += max(most - sum(i.object == owner.id for i in infos), 0) * len(frames)
     unknown, eta = dict(row.unknown), None
     if row.seconds is None:
         unknown["eta_seconds"] = say("figure_no_times")

@@ -23,7 +23,7 @@ NAMES = ("Jörg", "Müller", "Bo", "Zoë")
 
 def worked(path: Path) -> None:
     """Jörg places a point, Zoë was its annotator before, Bo returns it and names Jörg in his words."""
-    project = Project.create(path, info_of(12, annotations.SIZE, "clip", "/home/jörg/clip"), person="Jörg Müller")
+    project = Project.create(path, info_of(12, annotations.SIZE, "clip", "/data/jörg/clip"), person="Jörg Müller")
     a = project.annotation
     project.do(edit_tracks.put_objects(a, [ObjectInfo(1, "dog", 1, "chosen")]))
     project.do(edit_tracks.add_track(a, 1, 1, "Zoë"))

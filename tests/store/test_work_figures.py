@@ -83,6 +83,24 @@ def test_time_left_goes_by_the_pace_so_far_and_nothing_left_takes_none(tmp_path:
     assert (done.left, done.eta_seconds) == (0, 0.0)
 
 
+def test_only_frames_of_the_stride_are_left_and_nothing_of_a_closed_clip(tmp_path: Path) -> None:
+    project = worked(tmp_path / "p.genmojo")
+    a = project.annotation
+    for t in (1, 3, 5, 7, 9):  # beside the stride: the frames of the stride are as open as before
+        project.do(keys.confirm(a, [1, 2], t))
+    project.close()
+    entries = timed(audit.entries(tmp_path / "p.genmojo"))
+    whole = work_figures.figures(a, entries, "clip")[0]
+    assert (whole.left, whole.confirmed) == ((6 - 4) + (6 - 3), 17)
+    assert whole.eta_seconds == pytest.approx(whole.seconds * 5 / 17)
+    set_meta(a, "limit_points", "5").do(a)
+    assert work_figures.figures(a, entries, "clip")[0].left == 5 + 3 * 6
+    for track in (1, 2):
+        edit_tracks.approve(a, track, "Bo").do(a)
+    done = work_figures.figures(a, entries, "clip")[0]
+    assert (done.left, done.eta_seconds) == (0, 0.0)
+
+
 def test_what_is_not_known_is_said_in_words(tmp_path: Path) -> None:
     Project.create(tmp_path / "p.genmojo", info_of(12, annotations.SIZE, "clip")).close()
     loaded = project_file.load(tmp_path / "p.genmojo")
