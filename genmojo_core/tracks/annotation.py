@@ -243,6 +243,15 @@ class Annotation:
         owner = np.array([self.tracks[track].object for track in tracks], np.int64)
         return PointTracks(xy, c.state, owner, self.size, None, c.conf, c.flags, c.source)
 
+    def copy(self) -> Annotation:
+        """All of it as it stands, for another thread; nobody listens to the copy."""
+        made = Annotation(self.frames, self.size)
+        made.objects, made.tracks, made.meta = dict(self.objects), dict(self.tracks), dict(self.meta)
+        made.proposals = {track: dict(kept) for track, kept in self.proposals.items()}
+        made.revision, made._rows = self.revision, dict(self._rows)
+        made._ids, made._aside, made._cells = self._ids.copy(), self._aside.copy(), self._cells.copy()
+        return made
+
     def digest(self) -> str:
         """SHA-256 over everything an edit can change; equal for equal annotations."""
         total = hashlib.sha256(repr((self.frames, self.size, sorted(self.meta.items()))).encode())

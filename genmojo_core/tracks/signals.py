@@ -56,11 +56,9 @@ def _speed_doubt(cells: Cells, others: list[Cells], unit: float) -> np.ndarray:
     moving = np.ma.median(np.ma.masked_invalid(np.stack(rest)), axis=0).filled(0.0) if len(rest) >= 2 else 0.0 * own
     speed = np.nan_to_num(np.linalg.norm(own - moving, axis=1))
     pace = np.nan_to_num(np.linalg.norm(moving if len(rest) >= 2 else own, axis=1))
-    windows = [slice(max(t - _WINDOW, 0), t + _WINDOW + 1) for t in range(len(speed))]
-    usual = np.array([np.median(speed[w]) for w in windows])
-    spread = np.array([1.4826 * np.median(np.abs(speed[w] - np.median(speed[w]))) for w in windows])
-    pace = np.array([np.median(pace[w]) for w in windows])
-    step = _rising((speed - usual) / (spread + 0.1 * pace + 1.5 * unit), 3.0, 9.0)
+    usual = _medians(speed)
+    spread = 1.4826 * _medians(speed, usual)
+    step = _rising((speed - usual) / (spread + 0.1 * _medians(pace) + 1.5 * unit), 3.0, 9.0)
     return np.maximum(step, np.append(step[1:], 0.0))  # both ends of a fast step
 
 
@@ -73,7 +71,7 @@ def _acceleration_doubt(cells: Cells, others: list[Cells], unit: float) -> np.nd
     size = np.where(known, np.nan_to_num(np.linalg.norm(own, axis=1)), 0.0)
     beside = np.maximum(np.append(size[1:], 0.0), np.append(0.0, size[:-1]))
     size = np.where(size >= beside, size, 0.6 * size)  # a jump shows in the frames beside it too
-    usual = np.array([np.median(size[max(t - _WINDOW, 0) : t + _WINDOW + 1]) for t in range(len(size))])
+    usual = _medians(size)
     return _rising((size - usual) / (1.5 * usual + 2.0 * unit), 2.0, 6.0)
 
 
@@ -145,14 +143,12 @@ def affine_residual(cells: Cells, others: list[Cells], unit: float) -> np.ndarra
     if len(others) < 3:
         return out
     xy = np.stack([o.xy for o in others])
-    known = np.stack([o.state != NONE for o in others])
+    known, own = np.stack([o.state != NONE for o in others]), cells.state != NONE
     for reach in (1, 4):
         error = np.full(len(cells), np.nan)
-        for t in range(len(cells) - reach):
-            both = known[:, t] & known[:, t + reach]
-            if both.sum() < 3 or cells.state[t] == NONE or cells.state[t + reach] == NONE:
-                continue
-            error[t] = _residual(xy[both, t], xy[both, t + reach], cells.xy[t], cells.xy[t + reach]) / unit
+        for which, t in _alike(known[:, :-reach] & known[:, reach:], own[:-reach] & own[reach:]):
+            source, target = (np.swapaxes(xy[which][:, at], 0, 1) for at in (t, t + reach))
+            error[t] = _residuals(source, target, cells.xy[t], cells.xy[t + reach]) / unit
         if np.isfinite(error).any():
             size = 5.0 * np.sqrt(reach)
             doubt = _rising(np.nan_to_num(error - np.nanmedian(error)), size, 4.0 * size)
@@ -207,13 +203,38 @@ def _rising(value: np.ndarray, low: float, high: float) -> np.ndarray:
     return share * share * (3.0 - 2.0 * share)
 
 
-def _residual(source: np.ndarray, target: np.ndarray, here: np.ndarray, there: np.ndarray) -> float:
-    """Distance of `there` from where the motion of source (m, 2) to target (m, 2) takes `here`; nearly affine."""
-    middle, goal = np.median(source, axis=0), np.median(target, axis=0)
+def _medians(values: np.ndarray, about: np.ndarray | None = None) -> np.ndarray:  # (T,) -> (T,)
+    """Medians over _WINDOW frames on either side of each; with `about` (T,) of the distances from its value there."""
+    count, wide = len(values), 2 * _WINDOW + 1
+    centre = np.zeros(count) if about is None else about
+    out = np.empty(count)
+    for t in [*range(min(_WINDOW, count)), *range(max(count - _WINDOW, _WINDOW), count)]:
+        near = values[max(t - _WINDOW, 0) : t + _WINDOW + 1]
+        out[t] = np.median(near if about is None else np.abs(near - centre[t]))
+    if count >= wide:
+        windows = np.lib.stride_tricks.sliding_window_view(values, wide)
+        inner = slice(_WINDOW, count - _WINDOW)
+        out[inner] = np.median(windows if about is None else np.abs(windows - centre[inner, None]), axis=1)
+    return out
+
+
+def _alike(known: np.ndarray, own: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:  # (n, T) bool, (T,) bool
+    """Frames own (k,) in which the same points (n,) bool are known, three at least; so that they are solved at once."""
+    frames = np.flatnonzero(own & (known.sum(axis=0) >= 3))
+    patterns, place = np.unique(known[:, frames], axis=1, return_inverse=True)
+    return [(patterns[:, k], frames[place.ravel() == k]) for k in range(patterns.shape[1])]
+
+
+def _residuals(source: np.ndarray, target: np.ndarray, here: np.ndarray, there: np.ndarray) -> np.ndarray:  # (k,)
+    """Distances of `there` (k, 2) from where the motion of source (k, m, 2) to target (k, m, 2) takes `here` (k, 2);
+    nearly affine."""
+    middle, goal = np.median(source, axis=1, keepdims=True), np.median(target, axis=1, keepdims=True)
     a, b = source - middle, target - goal
-    ridge = 0.05 * max(float(np.square(a).sum()), 1e-6) * np.eye(2)
-    linear = np.linalg.solve(a.T @ a + ridge, a.T @ b + ridge)
-    return float(np.linalg.norm((here - middle) @ linear + goal - there))
+    ridge = 0.05 * np.maximum(np.square(a).sum(axis=(1, 2)), 1e-6)[:, None, None] * np.eye(2)
+    turned = np.swapaxes(a, 1, 2)
+    linear = np.linalg.solve(turned @ a + ridge, turned @ b + ridge)
+    led = ((here[:, None] - middle) @ linear + goal)[:, 0]
+    return np.asarray(np.linalg.norm(led - there, axis=1))
 
 
 def _inside(cells: Cells, scene: Scene, owner: int) -> tuple[np.ndarray, np.ndarray]:

@@ -103,6 +103,10 @@ class Calibration:
         learnt = (first * self.prior + fired[right].sum(axis=0)) / (self.prior + fired.sum(axis=0))
         return np.asarray(np.maximum(learnt, _LEAST_TRUST * first))
 
+    def copy(self) -> Calibration:
+        """What was learnt so far, for another thread."""
+        return Calibration(self.prior, dict(self.outcomes))
+
     def _standing(self, annotation: Annotation) -> list[tuple[np.ndarray, bool]]:
         """Outcomes of places on which a person's word is still there."""
         flags = {t: annotation.track(t).flags for t in {track for track, _ in self.outcomes} & set(annotation.tracks)}

@@ -22,7 +22,7 @@ from genmojo_core.tracks import keys, suspicion
 from genmojo_core.tracks.annotation import PROPOSED, TRACKER, Proposal
 from genmojo_core.tracks.edits import join
 from genmojo_core.tracks.model import NONE
-from genmojo_core.tracks.suspicion import Evidence, Suspicion
+from genmojo_core.tracks.suspicion import Evidence, Spot, Suspicion
 from genmojo_studio import notify
 from genmojo_studio.annotate.learnt import Learnt
 from genmojo_studio.annotate.seed_task import SeedTask, seedable, seeded_words
@@ -42,6 +42,16 @@ class _Key:
     track: int
     frame: int
     step: int | None
+
+
+@dataclass(frozen=True)
+class _Judged:
+    """What was found of the annotation of a revision: all evidence so far, suspicion by track, spots, worst first."""
+
+    revision: int
+    evidence: dict[int, Evidence]
+    found: dict[int, Suspicion]
+    spots: list[Spot]
 
 
 class Tracking(QObject):
@@ -330,26 +340,25 @@ class Tracking(QObject):
         self._look.start()
 
     def _judge(self) -> None:
-        """Gather evidence of changed objects on the thread, then rank; one round at a time."""
+        """Gather evidence of changed objects and rank what is suspicious, on the thread; one round at a time."""
         session, clip = self._session, self._session.clip
         if self._closed or self._gathering or clip is None:
             return
-        if clip.masks is None:  # motion, flicker, other points and trackers tell without them
-            self._gathered({})
-            return
-        wanted = [o for o in self._stale if o in clip.object_ids.tolist() and self._is_seeded(o)]
+        ids = clip.object_ids.tolist() if clip.masks is not None else []  # without masks other signals tell
+        requests = [SolveRequest.of(session.annotation, o) for o in self._stale if o in ids and self._is_seeded(o)]
         self._stale.clear()
-        requests = [SolveRequest.of(session.annotation, o) for o in wanted]
+        self.learnt.keep()
         self._gathering = True
+        now, known, taught = session.annotation.copy(), dict(self.evidence), self.learnt.calibration.copy()
 
-        def work() -> dict[int, Evidence]:
-            solver = self._solver_for(clip)
-            found: dict[int, Evidence] = {}
+        def work() -> _Judged:
             for request in requests:
-                found |= solver.evidence(request)
-            return found
+                known.update(self._solver_for(clip).evidence(request))
+            there = {t: e for t, e in known.items() if t in now.tracks}
+            found = suspicion.assess(now, scene_of(clip), there, taught)
+            return _Judged(now.revision, known, found, suspicion.queue(now, found))
 
-        self.tasks.run(work, self._gathered, self._failed)
+        self.tasks.run(work, self._judged, self._failed)
 
     def _is_seeded(self, object_id: int) -> bool:
         """Whether any track of an object goes beyond the frames that a person placed."""
@@ -357,22 +366,19 @@ class Tracking(QObject):
         return any(np.count_nonzero(annotation.track(i.id).state) > len(annotation.keys(i.id))
                    for i in annotation.tracks_of(object_id))  # fmt: skip
 
-    def _gathered(self, evidence: dict[int, Evidence]) -> None:
+    def _judged(self, judged: _Judged) -> None:
         self._gathering = False
         session = self._session
         if self._closed or session.clip is None:
             return
-        self.learnt.keep()
-        self.evidence |= evidence
-        known = {t: e for t, e in self.evidence.items() if t in session.annotation.tracks}
-        self.suspicions = suspicion.assess(session.annotation, scene_of(session.clip), known, self.learnt.calibration)
+        tracks, self.evidence = session.annotation.tracks, judged.evidence
+        self.suspicions = {t: s for t, s in judged.found.items() if t in tracks}
         session.suspicions = self.suspicions
         session.suspicion = {t: s.score for t, s in self.suspicions.items()}
-        self.measured.emit({t: {"fb": e.gap, "ncc": e.likeness} for t, e in known.items()})
-        spots = suspicion.queue(session.annotation, self.suspicions)
-        self.spots_ready.emit([s for s in spots if s.score >= SHOWN])
+        self.measured.emit({t: {"fb": e.gap, "ncc": e.likeness} for t, e in self.evidence.items() if t in tracks})
+        self.spots_ready.emit([s for s in judged.spots if s.score >= SHOWN and s.track in tracks])
         session.shown.emit()
-        if self._stale:
+        if self._stale or session.annotation.revision != judged.revision:
             self._look.start()
 
     def _learn(self, track: int, frame: int, corrected: bool) -> None:

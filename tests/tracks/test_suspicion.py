@@ -16,7 +16,7 @@ from genmojo_core.trackers.solver import SolveRequest, TrackSolver
 from genmojo_core.tracks import keys, suspicion
 from genmojo_core.tracks.annotation import Annotation, Proposal
 from genmojo_core.tracks.model import OCCLUDED, VISIBLE
-from genmojo_core.tracks.signals import Scene, _speed_doubt, links, object_size, other_tracker
+from genmojo_core.tracks.signals import Scene, _alike, _medians, _speed_doubt, links, object_size, other_tracker
 from genmojo_core.tracks.suspicion import Calibration, Evidence, assess, queue
 
 DATA = Path(__file__).parents[3] / "shared" / "data"
@@ -209,3 +209,34 @@ def test_a_second_opinion_speaks_where_it_differs_and_not_where_a_person_put_a_p
     annotation.propose(3, Proposal("optical", xy, np.full(24, VISIBLE, np.uint8), np.ones(24, np.float32)))
     keys.set_key(annotation, 3, 12, (float(xy[12, 0]) + 30, float(xy[12, 1]))).do(annotation)
     assert assess(annotation)[3].parts[trackers].max() < 0.3
+
+
+@pytest.mark.parametrize("frames", [1, 5, 18, 19, 40])
+def test_medians_around_frames_are_those_of_each_frame_alone(frames: int) -> None:
+    values = np.random.default_rng(frames).uniform(0, 9, frames)
+    near = [values[max(t - 9, 0) : t + 10] for t in range(frames)]
+    usual = _medians(values)
+    np.testing.assert_array_equal(usual, [np.median(n) for n in near])
+    apart = [np.median(np.abs(n - np.median(n))) for n in near]
+    np.testing.assert_array_equal(_medians(values, usual), apart)
+
+
+def test_frames_in_which_the_same_points_are_known_go_together() -> None:
+    rng = np.random.default_rng(1)
+    known, own = rng.random((5, 60)) < 0.8, rng.random(60) < 0.9
+    groups = _alike(known, own)
+    assert sorted(t for _, frames in groups for t in frames) == [
+        t for t in range(60) if own[t] and known[:, t].sum() >= 3
+    ]
+    assert all((known[:, frames] == which[:, None]).all() for which, frames in groups) and len(groups) <= 2**5
+    assert _alike(known[:2], own) == []
+
+
+def test_copies_are_the_same_and_stay_what_they_were() -> None:
+    annotation = moving()
+    annotation.propose(3, Proposal("x", np.ones((24, 2), np.float32), np.ones(24, np.uint8), np.ones(24, np.float32)))
+    copied, digest = annotation.copy(), annotation.digest()
+    keys.set_key(annotation, 3, 12, (1.0, 2.0)).do(annotation)
+    annotation.put_proposal(3, "x", None)
+    assert copied.digest() == digest != annotation.digest() and list(copied.proposals[3]) == ["x"]
+    assert copied.revision < annotation.revision and copied.listeners == []

@@ -1,9 +1,12 @@
 """The queue of suspicious spots in the real window: what N offers, what it leaves out, what it learns."""
 
+import threading
+
 import numpy as np
 import pytest
 from annotating import choose_all, fill, place_points, refine
 
+from genmojo_core.tracks import edit_tracks, suspicion
 from genmojo_core.tracks.edit_tracks import update_track
 from genmojo_core.tracks.suspicion import Spot
 
@@ -76,6 +79,40 @@ def test_without_masks_a_jump_is_found_and_enter_stops_at_it(workspace, qtbot):
     session.select_track(list(session.annotation.tracks)[1])
     workspace.table.trigger("annotate.move.accept")
     assert session.frame == 10 and session.track == track
+
+
+def test_ranking_is_no_work_of_the_window_and_ends_also_without_masks(workspace, qtbot, monkeypatch):
+    """Edits go on meanwhile: what was deleted is not offered, what was changed is ranked again."""
+    choose_all(workspace)
+    place_points(workspace, each=2)
+    fill(workspace)
+    session, tracker = workspace.session, workspace.work.tracker
+    session.clip = session.clip.with_channels(masks=None)
+    assess, began, go_on, ranked = suspicion.assess, threading.Event(), threading.Event(), []
+
+    def slow(annotation, *rest):
+        ranked.append((threading.current_thread(), annotation.revision))
+        began.set()
+        go_on.wait(60)
+        return assess(annotation, *rest)
+
+    monkeypatch.setattr(suspicion, "assess", slow)
+    tracker.look_again()
+    qtbot.waitUntil(began.is_set, timeout=60_000)
+    gone, changed = list(session.annotation.tracks)[:2]
+    offered = []
+    tracker.spots_ready.connect(offered.append)
+    session.do(edit_tracks.delete_track(session.annotation, gone))
+    session.do(update_track(session.annotation, changed, name="nose"))
+    go_on.set()
+    qtbot.waitUntil(
+        lambda: ranked[-1][1] == session.annotation.revision and len(offered) == len(ranked), timeout=60_000
+    )
+    assert all(gone not in {s.track for s in spots} for spots in offered) and gone not in session.suspicion
+    assert not {thread for thread, _ in ranked} & {threading.main_thread()}
+    count = len(ranked)
+    qtbot.wait(1000)  # longer than it waits for another edit
+    assert len(ranked) == count, "nothing has changed since"
 
 
 def test_what_was_learnt_is_kept_with_the_project(workspace, qtbot):
