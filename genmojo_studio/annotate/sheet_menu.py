@@ -56,10 +56,10 @@ class SheetMenu:
             n=frame)  # fmt: skip
         states = menu.addMenu(title)
         for name in _STATES:
-            self._add(states, name, track, None if inside else frame)
+            self._add(states, name, track, None if inside else frame, alone=not inside)
         self._add(menu, "point.key", track, frame)
         menu.addMenu(self._fillings(menu, track, frame))
-        self._add(menu, "review.fix", track, None if inside else frame)
+        self._add(menu, "review.fix", track, None if inside else frame, alone=not inside)
         menu.addSeparator()
         start, end = s.annotation.segment(track, frame)
         if start is not None and end is not None:
@@ -80,8 +80,9 @@ class SheetMenu:
             action.setChecked(mode == now)
         return made
 
-    def _add(self, menu: QMenu, name: str, track: int, frame: int | None) -> QAction:
-        """An action of the table, its key beside it; done in `frame`, None: where one is."""
+    def _add(self, menu: QMenu, name: str, track: int, frame: int | None, *, alone: bool = False) -> QAction:
+        """An action of the table, its key beside it; done in `frame`, None: where one is. `alone`: a run that is marked
+        elsewhere is forgotten first, as the deed would be done to it."""
         known = self._w.table[f"annotate.{name}"]
         keys = self._w.table.keys(known.id)
         action = menu.addAction(tr(known.text) + (f"\t{keys[0]}" if keys else ""))
@@ -90,6 +91,8 @@ class SheetMenu:
         def chosen() -> None:
             if frame is not None:
                 self._go(track, frame)
+            if alone:
+                self._s.run = (None, None)
             self._w.table.trigger(known.id)
 
         action.triggered.connect(chosen)

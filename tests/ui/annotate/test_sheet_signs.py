@@ -139,6 +139,22 @@ def test_the_menu_of_a_cell_marks_runs_paints_fills_and_goes(refining):
     assert session.annotation.track(first).mode[4] == BY_TRACKER
 
 
+def test_what_is_chosen_for_a_frame_is_not_done_to_a_run_that_is_marked_elsewhere(refining):
+    sheet, session = refining.play.sheet, refining.session
+    track = sheet.rows()[1]
+    for run in ((11, 15), (11, None)):
+        before = session.annotation.track(track).copy()
+        session.go(20)
+        session.run, session.run_track = run, track
+        choose(ask(sheet, cell(sheet, 6, 1)), "Occluded")
+        choose(ask(sheet, cell(sheet, 4, 1)), "Uncertain")
+        now = session.annotation.track(track)
+        assert np.flatnonzero(now.state != before.state).tolist() == [6], run
+        assert np.flatnonzero((now.flags ^ before.flags) & UNCERTAIN).tolist() == [4], run
+        session.undo()
+        session.undo()
+
+
 def test_two_objects_and_points_of_the_same_name_are_told_apart(refining):
     session, sheet = refining.session, refining.play.sheet
     fish = [replace(info, name="fish") for info in session.objects()]
