@@ -20,7 +20,7 @@ def add_commands(commands: Any) -> None:
                                 "and person")  # fmt: skip
     times.add_argument("files", metavar="FILE.genmojo", nargs="+")
     times.add_argument("-o", "--output", metavar="FIGURES.csv", help="names and times only where consent is given")
-    times.add_argument("--stride", type=int, default=2, metavar="N", help="frames from one look to the next (2)")
+    times.add_argument("--stride", type=int, metavar="N", help="frames from one look to the next (the project's own)")
     times.set_defaults(run=run_times)
 
 
@@ -52,7 +52,7 @@ def run_times(args: argparse.Namespace) -> dict[str, Any]:
     from genmojo_core.store import audit, project_file, work_figures
     from genmojo_core.store.atomic import check_writable
 
-    if args.stride < 1:
+    if args.stride is not None and args.stride < 1:
         raise GenmojoError("argument", "must be 1 or more", "--stride")
     if args.output:
         check_writable(args.output)
@@ -60,7 +60,8 @@ def run_times(args: argparse.Namespace) -> dict[str, Any]:
     for name in args.files:
         loaded = project_file.load(Path(name))
         consents.append(loaded.annotation.meta.get("consent", ""))
-        rows += work_figures.figures(loaded.annotation, audit.entries(Path(name)), loaded.info.name, args.stride)
+        stride = args.stride or work_figures.stride_of(Path(name))
+        rows += work_figures.figures(loaded.annotation, audit.entries(Path(name)), loaded.info.name, stride)
     consent = "yes" if all(c == "yes" for c in consents) else ""
     if args.output:
         work_figures.write(rows, args.output, consent)

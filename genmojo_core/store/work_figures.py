@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from genmojo_core.sentences import say
+from genmojo_core.store import project_file
 from genmojo_core.store.atomic import write_bytes
 from genmojo_core.store.audit import Entry
 from genmojo_core.store.time_sheet import time_sheet
@@ -26,7 +27,8 @@ from genmojo_core.tracks.coverage import open_points
 from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
 from genmojo_core.tracks.review import SETTLED, closed
 
-STRIDE = 2  # of every so many frames one is looked at
+STRIDE = 2  # of every so many frames one is looked at, where the project says nothing else
+STRIDE_BLOB = "stride"  # of the project
 POINTS = 5  # of an object, where the project says nothing else
 PACE_PLACES, PACE_SECONDS = 10, 30.0  # less work tells no pace
 _TIMES = ("seconds", "seconds_per_track", "eta_seconds")
@@ -77,6 +79,12 @@ def figures(annotation: Annotation, entries: Sequence[Entry], clip: str, stride:
         rows.append(_row(annotation, infos, (clip, who), seconds[who], sum(p == who for p in keyed.values()),
                          sum(p == who for p in looked.values())))  # fmt: skip
     return rows
+
+
+def stride_of(path: Path) -> int:
+    """The stride that a project was left with; `STRIDE` where none was chosen."""
+    kept = (project_file.blob(path, STRIDE_BLOB) or b"").decode("ascii", "replace")
+    return int(kept) if kept.isdecimal() and int(kept) > 0 else STRIDE
 
 
 def write(rows: Sequence[Figures], path: str | Path, consent: str) -> None:

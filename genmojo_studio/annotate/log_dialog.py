@@ -117,7 +117,8 @@ class LogDialog(QDialog):
         name, _ = QFileDialog.getSaveFileName(self, tr("Export without names"), "copy.genmojo", "GenMOJO (*.genmojo)")
         if name:
             self._session.project.wait()
-            self._try(lambda: time_sheet.without_people(self._session.project.path, Path(name)))
+            target = Path(name) if name.endswith(".genmojo") else Path(f"{name}.genmojo")
+            self._try(lambda: time_sheet.without_people(self._session.project.path, target))
 
     def _try(self, work: Callable[[], object]) -> None:
         try:

@@ -64,6 +64,7 @@ class ReviewPage(QWidget):
         self.history.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._arrange()
         session.edited.connect(self.refresh)
+        session.edited.connect(self._list_history, Qt.ConnectionType.QueuedConnection)  # once the log has it, too
         session.selected.connect(self._other_track)
         session.selected.connect(self.refresh)
         session.settings_changed.connect(self.refresh)
@@ -127,6 +128,11 @@ class ReviewPage(QWidget):
         self.run_label.setText(tr("frames {a} to {b}").format(a=first, b=last) if last > first else
                                tr("frame {a}; [ and ] mark more").format(a=first))  # fmt: skip
         self.consent.setChecked(session.annotation.meta.get("consent") == "yes")
+        self._list_history()
+
+    def _list_history(self, _touched: object = None) -> None:
+        """What was done to the track and stands."""
+        session = self._session
         self.history.clear()
         mine = (row for row in session.project.log.standing() if row.track is not None and row.track == session.track)
         for row in islice(mine, _SHOWN):

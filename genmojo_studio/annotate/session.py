@@ -14,7 +14,7 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.clip.frames import open_source
 from genmojo_core.errors import GenmojoError
 from genmojo_core.estimate.masks import Prompt
-from genmojo_core.store import project_file
+from genmojo_core.store import project_file, work_figures
 from genmojo_core.store.project import Project, Step
 from genmojo_core.store.project_file import ClipInfo
 from genmojo_core.tracks.annotation import Annotation, ObjectInfo, Touched
@@ -29,7 +29,6 @@ from genmojo_studio.translate import fault, told, tr
 POINTS = 5  # key points per object
 OBJECTS = 5  # objects per clip; both can be changed in the project's notes
 STRIDES = (1, 10)  # least and most
-_STRIDE = "stride"  # blob of the project
 TRAILS = (0, 6, 24, 60)  # frames on either side
 Place = tuple[int, tuple[int, int], View]  # a frame, a point, a part of the frame
 
@@ -230,7 +229,7 @@ class Session(QObject):
         if stride != self.stride:
             self.stride = stride
             if not self.project.read_only:
-                self.project.put_blob(_STRIDE, str(stride).encode())
+                self.project.put_blob(work_figures.STRIDE_BLOB, str(stride).encode())
             self.settings_changed.emit()
 
     def select(self, object_id: int, number: int = 1) -> None:
@@ -322,8 +321,8 @@ class Session(QObject):
 
 def _stride_of(project: Project) -> int:
     """The stride that a project was left with; 2 where none was chosen."""
-    kept = (project.blob(_STRIDE) or b"").decode("ascii", "replace")
-    return int(kept) if kept.isdecimal() and STRIDES[0] <= int(kept) <= STRIDES[1] else 2
+    kept = work_figures.stride_of(project.path)
+    return kept if STRIDES[0] <= kept <= STRIDES[1] else work_figures.STRIDE
 
 
 def _check_clip(project: Project, cache: FrameCache, clip: Path, moved: bool) -> None:

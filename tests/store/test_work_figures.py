@@ -130,9 +130,11 @@ def test_tables_name_the_clip_and_keep_people_back_without_consent(tmp_path: Pat
     assert (only["clip"], only["person"], only["seconds"], only["keys"]) == ("clip", "", "", "3")
     project = Project.open(tmp_path / "p.genmojo", "Ada")
     project.do(set_meta(project.annotation, "consent", "yes"))
+    project.put_blob("stride", b"4")
     project.close()
     assert cli.main(["times", str(tmp_path / "p.genmojo"), "-o", str(tmp_path / "b.csv")]) == 0
     assert [r["person"] for r in rows("b.csv")] == ["", "Ada", "Bo"]
+    assert (only["left"], rows("b.csv")[0]["left"]) == ("5", "2")  # of 0, 2, .. 10; of 0, 4, 8 by its own stride
     entries = audit.entries(tmp_path / "p.genmojo")
     time_sheet.write_time_sheet([e.row for e in entries], "yes", tmp_path / "t.csv", "clip",
                                 work_figures.placed_keys(entries))  # fmt: skip

@@ -8,8 +8,10 @@ from annotating import choose_all, place_points
 from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QFileDialog
 
+from genmojo_core.store.project_file import Chain
 from genmojo_core.tracks import edit_tracks
 from genmojo_studio.annotate import verbs
+from genmojo_studio.annotate.audit_panel import chain_words
 from genmojo_studio.annotate.log_dialog import LogDialog
 
 
@@ -67,6 +69,7 @@ def test_the_chain_is_told_in_words(dialog, qtbot):
     connection.close()
     panel.check_button.click()
     qtbot.waitUntil(lambda: "1 of" in panel.chain.text() and "number 2" in panel.chain.text(), timeout=60_000)
+    assert "state kept after number 4 is not what they lead to" in chain_words(Chain(9, (), (), (4,)), 9)
 
 
 def test_the_log_is_exported_by_button_and_by_menu(dialog, workspace, qtbot, tmp_path, monkeypatch):

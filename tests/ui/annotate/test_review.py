@@ -178,6 +178,7 @@ def test_step_four_tells_rounds_words_of_both_sides_and_when_the_clip_is_closed(
         assert "closed" not in page.summary.text()
         page.approve_button.click()
     assert "The clip is closed" in page.summary.text() and "the clip is closed" in said[-1]
+    qtbot.waitUntil(lambda: page.history.item(0).text().startswith("Approve"), timeout=60_000)
     page.fix_button.click()
     assert "closed" not in page.summary.text()
 
