@@ -1,7 +1,8 @@
 """Edits that move frames between tracks: two change places, one is split in two, two become one.
 
 All that is known of a frame goes along: place, state, flags, source, confidence and what trackers proposed there. What
-a reviewer said goes where the frames go that it is about. Any track may know nothing in some of the frames, or in all.
+a reviewer said goes with the frames that it is about where a track is split or joined; a swap leaves it with the track,
+which it may well answer. Any track may know nothing in some of the frames, or in all.
 """
 
 from __future__ import annotations

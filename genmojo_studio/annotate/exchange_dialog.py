@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Literal, get_args
 
 import numpy as np
-from PySide6.QtCore import QEvent, QObject, QSize, Qt
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
@@ -24,6 +23,7 @@ from genmojo_core.tracks.annotation import Annotation
 from genmojo_core.tracks.edits import CellsChange, Edit
 from genmojo_core.tracks.model import NONE
 from genmojo_studio.annotate.colours import point_colour
+from genmojo_studio.annotate.frame_keys import FrameKeys
 from genmojo_studio.annotate.session import Other, Session
 from genmojo_studio.annotate.track_tree import point_icon
 from genmojo_studio.annotate.verbs import in_work, marked_run
@@ -33,7 +33,6 @@ Kind = Literal["swap", "split", "join"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 Point = tuple[int, int]  # object id, number
 _POINT = Qt.ItemDataRole.UserRole
-_STEPS = {Qt.Key.Key_Comma: -1, Qt.Key.Key_Period: 1}  # keys that step through the frames behind
 
 
 def hindrance(session: Session, kind: Kind) -> str:
@@ -92,7 +91,7 @@ class ExchangeDialog(QDialog):
         self.frames.setVisible(kind == "swap")
         self.winner.setVisible(kind == "join")
         self._fill()
-        self.partners.installEventFilter(self)
+        FrameKeys(session, self.partners)
         self.partners.currentItemChanged.connect(self._chosen)
         self.frames.currentIndexChanged.connect(self.refresh)
         self.winner.currentIndexChanged.connect(self.refresh)
@@ -106,16 +105,6 @@ class ExchangeDialog(QDialog):
         window = canvas.window()
         right = window.mapToGlobal(window.rect().topRight()).x()
         self.move(max(min(corner.x() + 8, right - self.width() - 8), 0), corner.y() + 30)
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Steps through the frames behind: these keys belong to actions of the window below, which rests meanwhile."""
-        kinds = (QEvent.Type.ShortcutOverride, QEvent.Type.KeyPress)
-        if isinstance(event, QKeyEvent) and event.type() in kinds and event.key() in _STEPS:
-            event.accept()
-            if event.type() == QEvent.Type.KeyPress:
-                self._session.go(self._session.frame + _STEPS[Qt.Key(event.key())])
-            return True
-        return super().eventFilter(watched, event)
 
     def partner(self) -> Point | None:
         """The point chosen: object id and number."""

@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 from functools import partial
 
-from PySide6.QtCore import QEvent, QObject, Qt
-from PySide6.QtGui import QKeyEvent, QKeySequence, QShortcut
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
@@ -26,13 +26,13 @@ from genmojo_core.tracks.agreement import agreement, pairs
 from genmojo_core.tracks.annotation import Annotation
 from genmojo_core.tracks.edits import Edit
 from genmojo_core.tracks.merge import Choice, Difference, MergeRun, MergeThing, locked, merge, preview
+from genmojo_studio.annotate.frame_keys import FrameKeys
 from genmojo_studio.annotate.picture_watch import spans
 from genmojo_studio.annotate.session import Other, Session
 from genmojo_studio.annotate.track_tree import review_name
 from genmojo_studio.translate import decimal, tr
 
 _CHOICES: tuple[Choice, ...] = ("mine", "theirs", "middle")
-_STEPS = {Qt.Key.Key_Comma: -1, Qt.Key.Key_Period: 1}  # keys that step through the frames behind
 
 
 class MergeDialog(QDialog):
@@ -67,7 +67,7 @@ class MergeDialog(QDialog):
         buttons.rejected.connect(self.reject)
         for n in range(len(_CHOICES)):
             QShortcut(QKeySequence(str(n + 1)), self, partial(self._choose, n))
-        self.table.installEventFilter(self)
+        FrameKeys(session, self.table)
         self.sure = QCheckBox(tr("It is the same clip all the same"))
         self.sure.toggled.connect(self._allow)
         warning = QLabel(_doubt_text(doubt, differing, compared), wordWrap=True)
@@ -82,16 +82,6 @@ class MergeDialog(QDialog):
         self.finished.connect(self._forget)
         if self.runs:
             self.table.setCurrentCell(0, 0)
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Steps through the frames behind: these keys belong to actions of the window below, which rests meanwhile."""
-        kinds = (QEvent.Type.ShortcutOverride, QEvent.Type.KeyPress)
-        if isinstance(event, QKeyEvent) and event.type() in kinds and event.key() in _STEPS:
-            event.accept()
-            if event.type() == QEvent.Type.KeyPress:
-                self._session.go(self._session.frame + _STEPS[Qt.Key(event.key())])
-            return True
-        return super().eventFilter(watched, event)
 
     def edit(self) -> Edit:
         """The merge as chosen."""

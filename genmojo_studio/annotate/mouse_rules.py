@@ -33,12 +33,16 @@ class MouseRule:
 
 
 _FRAME, _HELD = mark("Mouse in the frame"), mark("Keys that are held")
-_SHEET, _GRAPHS, _STRIP = mark("Mouse in the dope sheet"), mark("Mouse in the graphs"), mark("Mouse in the strip")
+SHEET, _TIMELINE = mark("Mouse in the dope sheet"), mark("Mouse in the timeline")
+_GRAPHS, _STRIP = mark("Mouse in the graphs"), mark("Mouse in the strip")
 RULES = (
     MouseRule(mark("Click"), mark("Places the active point here."), _FRAME, _PLACING),
     MouseRule(mark("Click on a point"), mark("Makes that point the active one."), _FRAME, _PLACING),
     MouseRule(mark("Drag"), mark("Moves the nearest point within 12 pixels of the screen."), _FRAME, _PLACING),
     MouseRule(mark("Shift while dragging"), mark("Moves it at an eighth of the speed."), _FRAME, _PLACING),
+    MouseRule(mark("Esc while dragging"), mark("Puts it back where it was."), _FRAME, _PLACING),
+    MouseRule(mark("Click on an arrow at the rim"), mark("Brings that point into the middle of the view."), _FRAME,
+              _PLACING),
     MouseRule(mark("Right click on a point"), mark("Occluded, or visible again."), _FRAME, _PLACING),
     MouseRule(mark("Drag with the tool Box"), mark("A rectangle round the object."), _FRAME, _DRAWING),
     MouseRule(mark("Click or drag with On it, Not this"), mark("Marks what belongs to the object, or does not."),
@@ -53,10 +57,16 @@ RULES = (
     MouseRule(mark("Hold {point.outside} and step"), mark("Paints out of view."), _HELD, _PLACING),
     MouseRule(mark("Hold {point.visible} and step"), mark("Paints visible."), _HELD, _PLACING),
     MouseRule(mark("Hold {point.nothing} and step"), mark("Forgets the places gone through."), _HELD, _PLACING),
-    MouseRule(mark("Click"), mark("Goes to that frame and makes that point the active one."), _SHEET),
-    MouseRule(mark("Drag over a row"), mark("Paints the state that is chosen above it."), _SHEET),
-    MouseRule(mark("Drag on the ruler"), mark("Goes through the frames."), _SHEET),
-    MouseRule(mark("Wheel"), mark("Moves the rows."), _SHEET),
+    MouseRule(mark("Click"), mark("Goes to that frame and makes that point the active one."), SHEET),
+    MouseRule(mark("Drag over a row"), mark("Paints the state that is chosen above it."), SHEET),
+    MouseRule(mark("Drag on the ruler"), mark("Goes through the frames."), SHEET),
+    MouseRule(mark("Right click"), mark("Offers states, runs, keys, filling and returning it."), SHEET),
+    MouseRule(mark("Ctrl+wheel"), mark("Zooms in time about the mouse."), SHEET),
+    MouseRule(mark("Wheel, Shift+wheel"), mark("Scrolls the rows, scrolls in time."), SHEET),
+    MouseRule(mark("Middle button, Shift+drag"), mark("Pulls rows and time along."), SHEET),
+    MouseRule(mark("Double click"), mark("Shows the whole clip."), SHEET),
+    MouseRule(mark("Click or drag in the upper lane"), mark("Goes to that frame."), _TIMELINE),
+    MouseRule(mark("Drag the bar, or an end of it"), mark("Scrolls in time, or zooms."), _TIMELINE),
     MouseRule(mark("Click"), mark("Goes to that frame."), _GRAPHS),
     MouseRule(mark("Drag a diamond of x or y"), mark("Moves that key."), _GRAPHS),
     MouseRule(mark("Drag, or wheel"), mark("Moves and zooms the curve; a double click shows all of it."), _GRAPHS),

@@ -13,6 +13,7 @@ from genmojo_core.tracks.annotation import BY_HOLD, BY_LINE, BY_TRACKER
 from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
 from genmojo_studio.annotate import returned
 from genmojo_studio.annotate.colours import point_colour
+from genmojo_studio.annotate.mouse_rules import RULES, SHEET
 from genmojo_studio.annotate.sheet_columns import Columns
 from genmojo_studio.annotate.sheet_painter import DECODED, MARKED, ROW, diamond, row_picture, segment_line, tick
 from genmojo_studio.translate import tr
@@ -37,11 +38,11 @@ class SheetLegend(QDialog):
             grid.addWidget(QLabel(words), row % 8, 2 * (row // 8) + 1)
         hands = QGridLayout()
         hands.setHorizontalSpacing(12)
-        for row, (what, does) in enumerate(_hands()):
-            title = QLabel(what)
+        for row, rule in enumerate(rule for rule in RULES if rule.where == SHEET):
+            title = QLabel(tr(rule.gesture))
             title.setProperty("role", "dim")
             hands.addWidget(title, row, 0)
-            hands.addWidget(QLabel(does), row, 1)
+            hands.addWidget(QLabel(tr(rule.does)), row, 1)
         hands.setColumnStretch(1, 1)
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         buttons.rejected.connect(self.reject)
@@ -126,16 +127,3 @@ def _band(colour: QColor) -> Sketch:
         painter.drawRect(QRectF(0, ROW / 2 - 2, _WIDE, 4))
 
     return sketch
-
-
-def _hands() -> list[tuple[str, str]]:
-    """What mouse and wheel do."""
-    return [
-        (tr("Click"), tr("goes to the frame and chooses the point")),
-        (tr("Drag"), tr("paints the state that is chosen above the sheet")),
-        (tr("Right click"), tr("offers states, runs, keys, filling and returning it")),
-        (tr("Ctrl+wheel"), tr("zooms in time about the mouse")),
-        (tr("Wheel, Shift+wheel"), tr("scrolls the rows, scrolls in time")),
-        (tr("Middle button, Shift+drag"), tr("pulls rows and time along")),
-        (tr("Double click"), tr("shows the whole clip")),
-    ]

@@ -972,6 +972,10 @@
       <translation>Maus im Dope Sheet</translation>
     </message>
     <message>
+      <source>Mouse in the timeline</source>
+      <translation>Maus in der Zeitleiste</translation>
+    </message>
+    <message>
       <source>Mouse in the graphs</source>
       <translation>Maus in den Kurven</translation>
     </message>
@@ -1010,6 +1014,22 @@
     <message>
       <source>Moves it at an eighth of the speed.</source>
       <translation>Bewegt ihn mit einem Achtel der Geschwindigkeit.</translation>
+    </message>
+    <message>
+      <source>Esc while dragging</source>
+      <translation>Esc beim Ziehen</translation>
+    </message>
+    <message>
+      <source>Puts it back where it was.</source>
+      <translation>Legt ihn zurück, wo er war.</translation>
+    </message>
+    <message>
+      <source>Click on an arrow at the rim</source>
+      <translation>Klick auf einen Pfeil am Rand</translation>
+    </message>
+    <message>
+      <source>Brings that point into the middle of the view.</source>
+      <translation>Holt diesen Punkt in die Mitte der Ansicht.</translation>
     </message>
     <message>
       <source>Right click on a point</source>
@@ -1128,12 +1148,60 @@
       <translation>Geht durch die Bilder.</translation>
     </message>
     <message>
-      <source>Moves the rows.</source>
-      <translation>Verschiebt die Zeilen.</translation>
+      <source>Right click</source>
+      <translation>Rechtsklick</translation>
+    </message>
+    <message>
+      <source>Offers states, runs, keys, filling and returning it.</source>
+      <translation>Bietet Zustände, Bereiche, Schlüssel, Füllung und Zurückgeben an.</translation>
+    </message>
+    <message>
+      <source>Ctrl+wheel</source>
+      <translation>Strg+Rad</translation>
+    </message>
+    <message>
+      <source>Zooms in time about the mouse.</source>
+      <translation>Zoomt in der Zeit um die Maus.</translation>
+    </message>
+    <message>
+      <source>Wheel, Shift+wheel</source>
+      <translation>Rad, Umschalt+Rad</translation>
+    </message>
+    <message>
+      <source>Scrolls the rows, scrolls in time.</source>
+      <translation>Rollt die Zeilen, rollt in der Zeit.</translation>
+    </message>
+    <message>
+      <source>Middle button, Shift+drag</source>
+      <translation>Mittlere Taste, Umschalt+Ziehen</translation>
+    </message>
+    <message>
+      <source>Pulls rows and time along.</source>
+      <translation>Zieht Zeilen und Zeit mit.</translation>
+    </message>
+    <message>
+      <source>Double click</source>
+      <translation>Doppelklick</translation>
+    </message>
+    <message>
+      <source>Shows the whole clip.</source>
+      <translation>Zeigt den ganzen Clip.</translation>
+    </message>
+    <message>
+      <source>Click or drag in the upper lane</source>
+      <translation>Klick oder Ziehen in der oberen Bahn</translation>
     </message>
     <message>
       <source>Goes to that frame.</source>
       <translation>Geht zu diesem Bild.</translation>
+    </message>
+    <message>
+      <source>Drag the bar, or an end of it</source>
+      <translation>Den Balken oder eines seiner Enden ziehen</translation>
+    </message>
+    <message>
+      <source>Scrolls in time, or zooms.</source>
+      <translation>Rollt in der Zeit oder zoomt.</translation>
     </message>
     <message>
       <source>Drag a diamond of x or y</source>
@@ -2090,54 +2158,6 @@
     <message>
       <source>Nothing more to take back or do again.</source>
       <translation>Nichts mehr zurückzunehmen oder zu wiederholen.</translation>
-    </message>
-    <message>
-      <source>goes to the frame and chooses the point</source>
-      <translation>geht zum Bild und wählt den Punkt</translation>
-    </message>
-    <message>
-      <source>paints the state that is chosen above the sheet</source>
-      <translation>malt den Zustand, der darüber gewählt ist</translation>
-    </message>
-    <message>
-      <source>Right click</source>
-      <translation>Rechtsklick</translation>
-    </message>
-    <message>
-      <source>offers states, runs, keys, filling and returning it</source>
-      <translation>bietet Zustände, Strecken, Schlüssel, Füllung und Zurückgeben</translation>
-    </message>
-    <message>
-      <source>Ctrl+wheel</source>
-      <translation>Strg+Rad</translation>
-    </message>
-    <message>
-      <source>zooms in time about the mouse</source>
-      <translation>zoomt die Zeit um die Maus</translation>
-    </message>
-    <message>
-      <source>Wheel, Shift+wheel</source>
-      <translation>Rad, Umschalt+Rad</translation>
-    </message>
-    <message>
-      <source>scrolls the rows, scrolls in time</source>
-      <translation>verschiebt die Zeilen, verschiebt die Zeit</translation>
-    </message>
-    <message>
-      <source>Middle button, Shift+drag</source>
-      <translation>Mittlere Taste, Umschalt+Ziehen</translation>
-    </message>
-    <message>
-      <source>pulls rows and time along</source>
-      <translation>zieht Zeilen und Zeit mit</translation>
-    </message>
-    <message>
-      <source>Double click</source>
-      <translation>Doppelklick</translation>
-    </message>
-    <message>
-      <source>shows the whole clip</source>
-      <translation>zeigt den ganzen Clip</translation>
     </message>
     <message>
       <source>not annotated</source>

@@ -212,8 +212,8 @@ def test_the_sheet_tells_what_the_mouse_does_in_this_step(sheets, table):
     refine = " ".join(" ".join(row) for row in texts(sheets(2)))
     for words in ("Places the active point", "within 12 pixels", "eighth of the speed", "Zooms at the mouse", "middle",
                   "Occluded, or visible again", "Hold Z", "Hold H", "Hold Q and step",
-                  "Paints the state that is chosen",
-                  "Drag a diamond"):  # fmt: skip
+                  "Paints the state that is chosen", "Drag a diamond", "arrow at the rim", "Puts it back",
+                  "Right click", "Zooms in time about the mouse", "Drag the bar"):  # fmt: skip
         assert words in refine, words
     objects = " ".join(" ".join(row) for row in texts(sheets(0)))
     assert "Places the active point" not in objects and "rectangle round the object" in objects
