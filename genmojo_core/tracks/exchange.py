@@ -7,6 +7,7 @@ which it may well answer. Any track may know nothing in some of the frames, or i
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -130,14 +131,25 @@ def _given(
 
     `fill`: in all other frames, too, of which they said nothing for `track`.
     """
-    mine = annotation.proposals.get(track, {})
     theirs = annotation.proposals.get(source, {}) if source is not None else {}
+    mine = annotation.proposals.get(track, {})
+    return given(track, mine, theirs, frames, annotation.frames, fill)
+
+
+def given(track: int, mine: Mapping[str, Proposal], theirs: Mapping[str, Proposal], frames: np.ndarray,
+          count: int, fill: bool = False) -> list[ProposalChange]:  # fmt: skip
+    """What some trackers proposed in frames (n,) for another track becomes what they proposed for `track`.
+
+    Args:
+        mine, theirs: by tracker; of a tracker that has nothing of the other track, nothing is left there. count: of
+            the clip's frames. fill: in all others, too, of which `mine` says nothing.
+    """
     changes = []
     for name in sorted({*mine, *theirs}):
-        before, silent = mine.get(name), _silent(name, annotation.frames)
-        own, given = before or silent, theirs.get(name, silent)
-        unknown = np.flatnonzero((own.state == NONE) & (given.state != NONE)) if fill else frames[:0]
-        after = _over(own, given, np.union1d(frames, unknown))
+        before, silent = mine.get(name), _silent(name, count)
+        own, other = before or silent, theirs.get(name, silent)
+        unknown = np.flatnonzero((own.state == NONE) & (other.state != NONE)) if fill else frames[:0]
+        after = _over(own, other, np.union1d(frames, unknown))
         left = after if (after.state != NONE).any() else None
         if (before is None) != (left is None) or (before is not None and left is not None and _differ(before, left)):
             changes.append(ProposalChange(track, name, before, left))

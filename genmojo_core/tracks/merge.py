@@ -14,8 +14,18 @@ import numpy as np
 
 from genmojo_core.sentences import say
 from genmojo_core.tracks.agreement import pairs
-from genmojo_core.tracks.annotation import UNCERTAIN, Annotation, Cells, ObjectInfo, TrackInfo
-from genmojo_core.tracks.edits import CellsChange, Change, Edit, MetaChange, ObjectChange, TrackChange, cells_change
+from genmojo_core.tracks.annotation import PROPOSED, UNCERTAIN, Annotation, Cells, ObjectInfo, TrackInfo
+from genmojo_core.tracks.edits import (
+    CellsChange,
+    Change,
+    Edit,
+    MetaChange,
+    ObjectChange,
+    ProposalChange,
+    TrackChange,
+    cells_change,
+)
+from genmojo_core.tracks.exchange import given
 from genmojo_core.tracks.model import NONE, VISIBLE
 
 SAME_PIXELS = 1.5  # at 1080p: closer than this two people mean the same place
@@ -96,8 +106,8 @@ def merge(
     things = [one for one, _ in wanted if isinstance(one, MergeThing)]
     runs = [(one, choice) for one, choice in wanted if isinstance(one, MergeRun)]
     changes = [*_object_changes(mine, theirs, things), *_new_points(mine, theirs, things),
-               *_cell_changes(mine, theirs, runs), *_word_changes(mine, theirs, things),
-               *_deletions(mine, things)]  # fmt: skip
+               *_cell_changes(mine, theirs, runs), *_proposal_changes(mine, theirs, runs),
+               *_word_changes(mine, theirs, things), *_deletions(mine, things)]  # fmt: skip
     tracks = {c.track if isinstance(c, CellsChange) else c.id for c in changes
               if isinstance(c, CellsChange | TrackChange)}  # fmt: skip
     cells = next((c for c in changes if isinstance(c, CellsChange) and len(c.frames)), None)
@@ -237,7 +247,8 @@ def _new_points(mine: Annotation, theirs: Annotation, things: list[MergeThing]) 
             last += 1
             known = frames[theirs.track(one.their).state != NONE]
             found += [TrackChange(last, None, replace(theirs.tracks[one.their], id=last)),
-                      CellsChange(last, known, Cells.empty(len(known)), theirs.cells(one.their, known))]  # fmt: skip
+                      CellsChange(last, known, Cells.empty(len(known)), theirs.cells(one.their, known)),
+                      *given(last, {}, theirs.proposals.get(one.their, {}), frames, mine.frames)]  # fmt: skip
     if found:
         found.append(MetaChange("last_track", mine.meta.get("last_track"), str(last)))
     return found
@@ -258,6 +269,22 @@ def _cell_changes(mine: Annotation, theirs: Annotation, runs: list[tuple[MergeRu
             cells.xy[span[both]] = middle[both]
     made = [cells_change(mine, track, np.arange(mine.frames), cells) for track, cells in taken.items()]
     return [change for change in made if change is not None]
+
+
+def _proposal_changes(
+    mine: Annotation, theirs: Annotation, runs: list[tuple[MergeRun, Choice]]
+) -> list[ProposalChange]:
+    """What trackers proposed for frames that are taken over: it goes on to lead them. Trackers that have proposed
+    nothing to them keep what they proposed here, but for those that would lead a track."""
+    taken: dict[tuple[int, int], list[np.ndarray]] = {}
+    for run, _ in runs:
+        taken.setdefault((run.track, run.their), []).append(np.arange(run.first, run.last + 1))
+    found = []
+    for (track, their), spans in taken.items():
+        other = theirs.proposals.get(their, {})
+        own = {name: p for name, p in mine.proposals.get(track, {}).items() if name in other or name in PROPOSED}
+        found += given(track, own, other, np.concatenate(spans), mine.frames)
+    return found
 
 
 def _word_changes(mine: Annotation, theirs: Annotation, things: list[MergeThing]) -> list[Change]:

@@ -14,12 +14,12 @@ from genmojo_core.store import project_file, time_sheet
 from genmojo_core.store.edit_codec import decode_annotation, encode_annotation
 from genmojo_core.store.project import Project, info_of
 from genmojo_core.store.project_log import Row
-from genmojo_core.tracks import edit_tracks, keys, statistics
+from genmojo_core.tracks import edit_tracks, exchange, keys, statistics
 from genmojo_core.tracks.agreement import agreement
-from genmojo_core.tracks.annotation import Annotation, ObjectInfo
+from genmojo_core.tracks.annotation import SCENE, Annotation, ObjectInfo, Proposal
 from genmojo_core.tracks.edits import set_meta
 from genmojo_core.tracks.merge import MergeThing, locked, merge, preview
-from genmojo_core.tracks.model import OCCLUDED
+from genmojo_core.tracks.model import OCCLUDED, VISIBLE
 
 
 def filled() -> Annotation:
@@ -206,3 +206,40 @@ def test_times_need_consent_and_names_can_be_taken_out(tmp_path: Path) -> None:
     assert bare.annotation.track(1).xy[3].tolist() == [5.0, 6.0]
     assert bare.annotation.tracks[1].person == ""
     bare.close()
+
+
+def test_a_merge_brings_what_trackers_proposed_so_that_it_goes_on_to_lead(tmp_path: Path) -> None:
+    rng = np.random.default_rng(3)
+
+    def way(tracker: str) -> Proposal:
+        xy = rng.uniform(0, 900, (12, 2)).astype(np.float32)
+        return Proposal(tracker, xy, np.full(12, VISIBLE, np.uint8), np.ones(12, np.float32))
+
+    project = Project.create(tmp_path / "p.genmojo", info_of(12, annotations.SIZE))
+    mine, ways, still = project.annotation, {n: way("scene") for n in (1, 2, 3)}, way("optical")
+    project.do(edit_tracks.put_objects(mine, [ObjectInfo(1, "dog", 1, "chosen")]))
+    for track in (1, 2):
+        project.do(edit_tracks.add_track(mine, 1, track))
+        project.do(keys.accept(mine, {track: ways[track]}, SCENE))
+        project.propose(track, ways[track])
+    base, theirs = copied(mine), copied(mine)
+    for track in (1, 2):
+        theirs.propose(track, ways[track])
+    project.propose(1, still)
+    exchange.swap(theirs, 1, 2, 4, 7).do(theirs)
+    edit_tracks.add_track(theirs, 1, 3).do(theirs)
+    theirs.propose(3, ways[3])
+    keys.accept(theirs, {3: ways[3]}, SCENE).do(theirs)
+    project.do(merge(mine, theirs, preview(base, mine, theirs), {}))
+
+    def led(side: Annotation) -> list[bool]:
+        return [np.array_equal(side.proposals[t]["scene"].xy, side.track(t).xy) for t in (1, 2, 3)]
+
+    assert not np.array_equal(mine.track(1).xy, ways[1].xy)
+    assert led(mine) == [True] * 3
+    assert np.array_equal(mine.proposals[1]["optical"].xy, still.xy)
+    project.wait()
+    assert led(project_file.load(tmp_path / "p.genmojo").annotation) == [True] * 3
+    project.undo()
+    assert np.array_equal(mine.proposals[1]["scene"].xy, ways[1].xy)
+    project.close()
