@@ -23,12 +23,24 @@ from genmojo_core.tracks.annotation import (
     KEY,
     LINEAR,
     PAINTED,
+    PROPOSED,
     Annotation,
     Cells,
     ObjectInfo,
+    Proposal,
     TrackInfo,
 )
-from genmojo_core.tracks.edits import CellsChange, Change, Edit, MetaChange, ObjectChange, TrackChange, cells_change
+from genmojo_core.tracks.edits import (
+    CellsChange,
+    Change,
+    Edit,
+    MetaChange,
+    ObjectChange,
+    ProposalChange,
+    TrackChange,
+    cells_change,
+)
+from genmojo_core.tracks.exchange import given
 from genmojo_core.tracks.interpolate import placed
 from genmojo_core.tracks.model import NONE, VISIBLE, PointTracks
 
@@ -116,8 +128,8 @@ def import_tracks(annotation: Annotation, sheet: TrackSheet, person: str = "", m
             last += 1
             made = TrackInfo(last, *place, sheet.point_name(row), person)
             frames, after = imported_cells(Cells.empty(annotation.frames), sheet.tracks, row)
-            changes += [TrackChange(last, None, made),
-                        CellsChange(last, frames, Cells.empty(len(frames)), after)]  # fmt: skip
+            changes += [TrackChange(last, None, made), CellsChange(last, frames, Cells.empty(len(frames)), after),
+                        *_led(annotation, last, frames, after)]  # fmt: skip
             count.made += 1
         else:
             changes += _into(annotation, info, sheet, row, count)
@@ -174,8 +186,20 @@ def _into(annotation: Annotation, info: TrackInfo, sheet: TrackSheet, row: int, 
     if not info.name and sheet.point_name(row):
         found.append(TrackChange(info.id, info, replace(info, name=sheet.point_name(row))))
     if change is not None:
-        found.append(change)
+        found += [change, *_led(annotation, info.id, frames, after)]
     count.filled += bool(found)
+    return found
+
+
+def _led(annotation: Annotation, track: int, frames: np.ndarray, after: Cells) -> list[ProposalChange]:
+    """What the file says was proposed by a tracker goes on to lead the track, not what is proposed here so far."""
+    found: list[ProposalChange] = []
+    for name in [name for name, code in PROPOSED.items() if (after.source == code).any()]:
+        way = Cells.empty(annotation.frames)
+        way.xy[frames], way.state[frames], way.conf[frames] = after.xy, after.state, after.conf
+        own = annotation.proposals.get(track, {}).get(name)
+        proposal = Proposal(name, way.xy, way.state, way.conf)
+        found += given(track, {} if own is None else {name: own}, {name: proposal}, frames, annotation.frames)
     return found
 
 

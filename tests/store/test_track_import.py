@@ -16,8 +16,9 @@ from genmojo_core.errors import GenmojoError
 from genmojo_core.store import deeplabcut, sleap, track_npz
 from genmojo_core.store.track_import import import_tracks
 from genmojo_core.store.track_sheet import TrackSheet
+from genmojo_core.trackers import guide
 from genmojo_core.tracks import edit_tracks, keys
-from genmojo_core.tracks.annotation import Annotation, ObjectInfo
+from genmojo_core.tracks.annotation import PROPOSED, Annotation, ObjectInfo, Proposal
 from genmojo_core.tracks.interpolate import placed
 from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE, PointTracks
 
@@ -70,6 +71,36 @@ def test_an_annotation_goes_through_a_file_into_an_empty_one_whole(tmp_path: Pat
     assert {o.name for o in other.chosen_objects()} == {annotation.objects[i.object].name for i in known}
     done.edit.undo(other)
     assert other.digest() == before
+
+
+@pytest.mark.parametrize("tracker", list(PROPOSED))
+def test_what_was_proposed_goes_on_to_lead_and_nothing_that_is_proposed_here(tmp_path: Path, tracker: str) -> None:
+    rng = np.random.default_rng(1)
+
+    def seeded() -> Annotation:
+        annotation = annotations.started(24, 1, 2)
+        for track in (1, 2):
+            xy = rng.uniform(0, 900, (24, 2)).astype(np.float32)
+            state = rng.integers(1, 4, 24).astype(np.uint8)
+            annotation.propose(track, Proposal(tracker, xy, state, np.full(24, 0.75, np.float32)))
+            accepted = {track: annotation.proposals[track][tracker]}
+            keys.accept(annotation, accepted, PROPOSED[tracker]).do(annotation)
+        return annotation
+
+    theirs, mine = seeded(), seeded()
+    keys.set_key(mine, 2, 5, (3.0, 4.0)).do(mine)
+    track_npz.write(TrackSheet.of_annotation(theirs), tmp_path / "t.npz")
+    sheet = track_npz.read(tmp_path / "t.npz", mine.size)
+    before = mine.proposals[2][tracker]
+    for side in (mine, Annotation(24, mine.size)):
+        import_tracks(side, sheet).edit.do(side)
+        for track in (1, 2):
+            led, cells = guide.taken(side, track), side.track(track)
+            others = cells.source == PROPOSED[tracker]
+            assert led is not None and others.sum() >= 23
+            assert np.array_equal(led.xy[others], cells.xy[others])
+            assert np.array_equal(led.state[others], cells.state[others])
+    assert np.array_equal(mine.proposals[2][tracker].xy[5], before.xy[5])
 
 
 def test_tracks_of_nobody_go_to_the_objects_they_lie_on_and_those_are_chosen() -> None:
