@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from datetime import datetime
@@ -94,8 +94,13 @@ def write(found: Sequence[Entry], path: str | Path, clip: str, consent: str, peo
     if str(path).lower().endswith(".json"):
         write_bytes(path, json_text({"clip": clip, "log": rows}).encode())
         return
+    write_table(path, FIELDS, rows)
+
+
+def write_table(path: str | Path, titles: Sequence[str], rows: Iterable[Mapping[str, object]]) -> None:
+    """Rows with these titles as CSV, in which nothing is a formula. Raises GenmojoError("io")."""
     out = io.StringIO()
-    writer = csv.DictWriter(out, FIELDS, lineterminator="\n")
+    writer = csv.DictWriter(out, titles, lineterminator="\n")
     writer.writeheader()
     writer.writerows({name: _cell(value) for name, value in row.items()} for row in rows)
     write_bytes(path, out.getvalue().encode("utf-8-sig"))  # spreadsheets tell UTF-8 by its mark

@@ -5,8 +5,6 @@ Times and names are data about people: they are exported only where the project'
 
 from __future__ import annotations
 
-import csv
-import io
 import sqlite3
 from collections.abc import Mapping, Sequence
 from contextlib import closing
@@ -16,8 +14,7 @@ from pathlib import Path
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.store import project_file
-from genmojo_core.store.atomic import write_bytes
-from genmojo_core.store.audit import local
+from genmojo_core.store.audit import local, write_table
 from genmojo_core.store.edit_codec import decode_edit, encode_edit
 from genmojo_core.store.nameless import Nameless, people_of
 from genmojo_core.store.project_db import RAISE_VERSION
@@ -72,11 +69,8 @@ def write_time_sheet(rows: Sequence[Row], consent: str, path: str | Path, clip: 
     if consent != "yes":
         raise GenmojoError("argument", "has no consent to export times of people", str(path),
                            "ask them and set the consent flag")  # fmt: skip
-    out = io.StringIO()
-    writer = csv.DictWriter(out, ["clip", *WorkDay.__dataclass_fields__], lineterminator="\n")
-    writer.writeheader()
-    writer.writerows({"clip": clip} | asdict(day) for day in time_sheet(rows, keys=keys))
-    write_bytes(path, out.getvalue().encode())
+    days = time_sheet(rows, keys=keys)
+    write_table(path, ["clip", *WorkDay.__dataclass_fields__], [{"clip": clip} | asdict(day) for day in days])
 
 
 def without_people(path: str | Path, target: str | Path) -> None:

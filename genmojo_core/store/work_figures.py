@@ -8,8 +8,6 @@ A key belongs to whoever placed or moved it last, the first placement of a point
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
@@ -19,8 +17,7 @@ import numpy as np
 
 from genmojo_core.sentences import say
 from genmojo_core.store import project_file
-from genmojo_core.store.atomic import write_bytes
-from genmojo_core.store.audit import Entry
+from genmojo_core.store.audit import Entry, write_table
 from genmojo_core.store.time_sheet import time_sheet
 from genmojo_core.tracks.annotation import CONFIRMED, KEY, UNCERTAIN, Annotation, TrackInfo
 from genmojo_core.tracks.coverage import open_points
@@ -94,11 +91,7 @@ def write(rows: Sequence[Figures], path: str | Path, consent: str) -> None:
     """
     records = given(rows, consent)
     titles = [*(f.name for f in fields(Figures) if f.name != "unknown"), "not_known_yet"]
-    out = io.StringIO()
-    writer = csv.DictWriter(out, titles, lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(records)
-    write_bytes(path, out.getvalue().encode("utf-8-sig"))
+    write_table(path, titles, records)
 
 
 def given(rows: Sequence[Figures], consent: str) -> list[dict[str, Any]]:

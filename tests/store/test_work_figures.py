@@ -136,8 +136,15 @@ def test_tables_name_the_clip_and_keep_people_back_without_consent(tmp_path: Pat
     assert [r["person"] for r in rows("b.csv")] == ["", "Ada", "Bo"]
     assert (only["left"], rows("b.csv")[0]["left"]) == ("5", "2")  # of 0, 2, .. 10; of 0, 4, 8 by its own stride
     entries = audit.entries(tmp_path / "p.genmojo")
+    found = work_figures.figures(project.annotation, entries, "clip")[0]
     time_sheet.write_time_sheet([e.row for e in entries], "yes", tmp_path / "t.csv", "clip",
                                 work_figures.placed_keys(entries))  # fmt: skip
     days = rows("t.csv")
     assert {d["clip"] for d in days} == {"clip"}
+    assert (tmp_path / "t.csv").read_bytes().startswith(b"\xef\xbb\xbf"), "spreadsheets tell UTF-8 by its mark"
+    named = [e.row if e.row.who == "Bo" else replace(e.row, who="=1+1") for e in entries]
+    time_sheet.write_time_sheet(named, "yes", tmp_path / "t.csv", "-clip")
+    work_figures.write([replace(found, person="@me")], tmp_path / "f.csv", "yes")
+    assert {d["person"] for d in rows("t.csv")} == {"'=1+1", "Bo"} and rows("t.csv")[0]["clip"] == "'-clip"
+    assert rows("f.csv")[0]["person"] == "'@me"
     assert sum(int(d["keys"]) for d in days) == 4  # the one undone was work too
