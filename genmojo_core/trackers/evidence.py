@@ -9,7 +9,7 @@ from genmojo_core.clip.clip import Clip
 from genmojo_core.trackers.object_motion import ObjectMotion
 from genmojo_core.trackers.stabilise import sample
 from genmojo_core.tracks.annotation import KEY, Cells
-from genmojo_core.tracks.model import VISIBLE
+from genmojo_core.tracks.model import NONE, VISIBLE
 from genmojo_core.tracks.signals import Scene
 from genmojo_core.tracks.suspicion import Evidence
 
@@ -70,14 +70,17 @@ def _median_gap(votes: list[list[list[np.ndarray]]], xy: np.ndarray) -> np.ndarr
 
 
 def _likeness(gray: list[np.ndarray], xy: np.ndarray, cells: Cells) -> np.ndarray:  # (T,)
-    """Correlation of each patch with that of the nearest key at or before it, or the first; NaN where not seen."""
+    """Correlation of each patch with that of the nearest key at or before it, or the first; NaN where no place is.
+
+    Also where the point is said to be hidden: pixels that look like it speak against that.
+    """
     side = np.arange(-_PATCH, _PATCH + 1, dtype=np.float32)
     around = np.stack(np.meshgrid(side, side), axis=-1)
     keys = np.flatnonzero(((cells.flags & KEY) > 0) & (cells.state == VISIBLE))
     out = np.full(len(cells), np.nan)
     if not len(keys):
         return out
-    patches = {int(t): _standard(sample(gray[t], xy[t] + around)) for t in np.flatnonzero(cells.state == VISIBLE)}
+    patches = {int(t): _standard(sample(gray[t], xy[t] + around)) for t in np.flatnonzero(cells.state != NONE)}
     for t, patch in patches.items():
         before = keys[keys <= t]
         out[t] = float((patch * patches[int(before[-1] if len(before) else keys[0])]).mean())

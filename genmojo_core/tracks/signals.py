@@ -88,8 +88,9 @@ def look(likeness: np.ndarray | None, cells: Cells) -> np.ndarray:
     """Pixels unlike those at the keys, against what is usual on this track."""
     if likeness is None or not np.isfinite(likeness).any():
         return np.zeros(len(cells))
-    drop = np.nanmedian(likeness) - likeness
-    return np.where(cells.state == VISIBLE, _rising(np.nan_to_num(drop), 0.15, 0.6), 0.0)
+    seen = cells.state == VISIBLE
+    drop = np.nanmedian(np.where(seen, likeness, np.nan)) - likeness if seen.any() else np.zeros(len(cells))
+    return np.where(seen, _rising(np.nan_to_num(drop), 0.15, 0.6), 0.0)
 
 
 def opinions(cells: Cells, proposals: dict[str, Proposal]) -> np.ndarray:
@@ -120,15 +121,20 @@ def other_tracker(cells: Cells, away: np.ndarray | None, size: float) -> np.ndar
     return _rising(np.nan_to_num(away) / size * _USUAL_SIZE, 4.0, 16.0)
 
 
-def mask(cells: Cells, scene: Scene | None, owner: int, agreement: np.ndarray | None) -> np.ndarray:
+def mask(
+    cells: Cells, scene: Scene | None, owner: int, agreement: np.ndarray | None, likeness: np.ndarray | None = None
+) -> np.ndarray:
     """Seen outside its object's mask, or hidden while the mask covers it.
 
-    An object hides its own far side, so the second is doubtful unless matches agree with the place.
+    An object hides its own far side, so the second is doubtful unless matches agree with the place, or the pixels there
+    look like the point.
     """
     if scene is None or owner not in scene.label_of:
         return np.zeros(len(cells))
     inside, depth = _inside(cells, scene, owner)
     fits = np.full(len(cells), 0.3) if agreement is None else np.clip(_FITS * np.nan_to_num(agreement), 0.0, 1.0)
+    if likeness is not None:
+        fits = np.maximum(fits, _rising(np.nan_to_num(likeness), 0.5, 0.9))
     outside = _rising(-depth, 1.0, 4.0)
     hidden = np.where(inside, (0.25 + 0.7 * fits) * _rising(depth, 0.5, 3.0), 0.0)
     return np.where(cells.state == VISIBLE, outside, np.where(cells.state == OCCLUDED, hidden, 0.0))

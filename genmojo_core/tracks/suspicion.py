@@ -45,7 +45,7 @@ class Evidence:
     """What pictures say about one track; any part may be missing.
 
     gap (T,) source px between the place and where matches from frames nearby put it (NaN: no match), agreement (T,)
-    0..1 of those matches, likeness (T,) -1..1 of the pixels with those at the keys (NaN: unknown), other (T, 2) a
+    0..1 of those matches, likeness (T,) -1..1 of the pixels with those at the keys, said to be seen or not (NaN: unknown), other (T, 2) a
     second tracker's places (NaN: none).
     """
 
@@ -186,7 +186,7 @@ def _parts(
         away = np.linalg.norm(cells.xy - evidence.other, axis=1)
     parts = np.stack([
         kinematics(cells, others, unit), links(cells, evidence.gap, size), look(evidence.likeness, cells),
-        other_tracker(cells, away, size), mask(cells, scene, owner, evidence.agreement),
+        other_tracker(cells, away, size), mask(cells, scene, owner, evidence.agreement, evidence.likeness),
         affine_residual(cells, others, unit), flicker(cells, annotation.size), confidence(cells), away_from_keys(cells),
     ])  # fmt: skip
     return np.clip(np.nan_to_num(parts), 0.0, 1.0)

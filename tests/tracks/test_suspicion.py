@@ -79,6 +79,20 @@ def test_a_hidden_point_on_its_own_mask_is_doubtful_when_matches_agree() -> None
     assert high > 0.5 > low
 
 
+def test_pixels_that_look_like_the_point_speak_against_its_being_hidden() -> None:
+    annotation = moving()
+    keys.set_state(annotation, 2, 6, 9, OCCLUDED).do(annotation)
+    cells = annotation.track(2)
+    cells.flags[6:10] = 0  # a tracker said so, nobody painted it
+    unlike = np.full(24, 0.9)
+    unlike[6:10] = 0.1
+    scores = [assess(annotation, masks_around(annotation), {2: Evidence(agreement=np.zeros(24), likeness=likeness)})[2]
+              for likeness in (np.full(24, 0.9), unlike)]  # fmt: skip
+    assert (scores[0].score[6:10] > suspicion.SUSPICIOUS).all()
+    assert (scores[1].score[6:10] < suspicion.SUSPICIOUS).all()
+    assert np.allclose(scores[0].parts[:, :6], scores[1].parts[:, :6])  # seen frames are judged among seen ones
+
+
 def test_keys_are_above_suspicion_and_accepted_frames_nearly() -> None:
     annotation = moving()
     shifted(annotation, 3, 10, 10, (25.0, -12.0))
