@@ -45,8 +45,8 @@ class Evidence:
     """What pictures say about one track; any part may be missing.
 
     gap (T,) source px between the place and where matches from frames nearby put it (NaN: no match), agreement (T,)
-    0..1 of those matches, likeness (T,) -1..1 of the pixels with those at the keys, said to be seen or not (NaN: unknown), other (T, 2) a
-    second tracker's places (NaN: none).
+    0..1 of those matches, likeness (T,) -1..1 of the pixels with those at the keys, also where the point is said to be
+    hidden (NaN: unknown), other (T, 2) a second tracker's places (NaN: none).
     """
 
     gap: np.ndarray | None = None
