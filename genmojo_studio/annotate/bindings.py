@@ -209,10 +209,8 @@ class Hands:
         }
 
     def guarded(self, name: str, verb: Verb) -> Verb:
-        """The verb, which does nothing while a point is being dragged, unless it changes the view alone."""
-        if name.startswith(("view.", "panel.")) or name == "move.frame":
-            return verb
-        return lambda: self.placing.refuse() if self._s.holding else verb()
+        """The verb, as far as what the hand is doing just now allows it (`Placing.guarded`)."""
+        return self.placing.guarded(name, verb)
 
     def enabled(self, name: str) -> Callable[[], bool]:
         """When an action is possible."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +19,9 @@ from genmojo_studio.translate import tr
 
 if TYPE_CHECKING:
     from genmojo_studio.annotate.workspace import AnnotateWorkspace
+
+_ELSEWHERE = ("move.worst", "move.worst_back", "move.back", "move.ahead")
+_PAINTING = tuple(f"point.{name}" for name in verbs.STATES)
 
 
 class Placing:
@@ -80,9 +84,26 @@ class Placing:
         elif on and self._w.play.player.playing:
             self._w.play.player.stop()
 
-    def refuse(self) -> None:
-        """Say why a key does nothing now."""
-        self._s.said.emit(tr("A point is being dragged: let it go first, or press Esc."))
+    def guarded(self, name: str, verb: Callable[[], object]) -> Callable[[], object]:
+        """The verb, which does nothing while a point is being dragged, unless it changes the view alone.
+
+        A state that is painted with its key held is stored first where another deed begins, or a jump elsewhere: its
+        frames are those that a person stepped through.
+        """
+        if name.startswith(("view.", "panel.")) or name == "move.frame":
+            return verb
+        stepping = name.startswith("move.") and name not in _ELSEWHERE
+        goes_on = stepping or name in _PAINTING
+
+        def guarded() -> None:
+            if self._s.holding:
+                self._s.said.emit(tr("A point is being dragged: let it go first, or press Esc."))
+                return
+            if not goes_on:
+                verbs.end_painting(self._s)
+            verb()
+
+        return guarded
 
     def seek(self, track: int | None) -> None:
         """Bring a track's point into the middle of the view, beyond the picture too, and make it active."""

@@ -16,7 +16,8 @@ from PySide6.QtWidgets import QApplication
 from genmojo_core.store.npz import read_tracks
 from genmojo_core.store.project import Project
 from genmojo_core.tracks.annotation import KEY
-from genmojo_core.tracks.model import NONE, OCCLUDED, VISIBLE
+from genmojo_core.tracks.model import NONE, OCCLUDED, OUT_OF_VIEW, VISIBLE
+from genmojo_studio.annotate import verbs
 from genmojo_studio.annotate.take_tracks import ExportDialog
 
 
@@ -105,6 +106,33 @@ def test_a_state_key_held_while_stepping_paints_one_run(workspace, qtbot):
     assert (session.annotation.track(track).state[4:8] == OCCLUDED).all() and session.frame == 7
     session.undo()
     assert not (session.annotation.track(track).state[4:8] == OCCLUDED).all()
+
+
+def test_a_state_key_held_over_an_undo_or_a_jump_paints_only_the_frames_stepped_through(workspace, qtbot):
+    choose_all(workspace)
+    place_points(workspace, each=1)
+    fill(workspace)
+    workspace.show_step(2)
+    workspace.work.tracker.close()
+    session = workspace.session
+    track, canvas = session.track, workspace.canvas
+    verbs.paint(session, track, OUT_OF_VIEW, 1, 1)  # undone it leads to frame 1
+    session.go(9, jump=True)
+    before = session.annotation.track(track).state.copy()
+    canvas.setFocus()
+    QTest.keyPress(canvas, Qt.Key.Key_Q)
+    QTest.keyClick(canvas, Qt.Key.Key_Right)
+    QTest.keyClick(canvas, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    QTest.keyRelease(canvas, Qt.Key.Key_Q)
+    assert (session.annotation.track(track).state == before).all(), "what was being painted is what is undone"
+    QTest.keyPress(canvas, Qt.Key.Key_Q)
+    QTest.keyClick(canvas, Qt.Key.Key_Right)
+    last = session.frame
+    QTest.keyClick(canvas, Qt.Key.Key_Home, Qt.KeyboardModifier.AltModifier)
+    assert session.frame != last
+    QTest.keyRelease(canvas, Qt.Key.Key_Q)
+    painted = np.flatnonzero(session.annotation.track(track).state != before)
+    assert painted.tolist() == [last - 1, last]
 
 
 def test_enter_stops_at_doubts_and_accepts_the_rest(workspace, qtbot):
