@@ -1436,16 +1436,16 @@
       <translation>{first} bis {last}</translation>
     </message>
     <message>
-      <source>A point is being dragged: let it go first, or press Esc.</source>
-      <translation>Ein Punkt wird gezogen: erst loslassen, oder Esc drücken.</translation>
-    </message>
-    <message>
       <source>All points are placed. Seed the tracks now (Ctrl+G).</source>
       <translation>Alle Punkte sind gesetzt. Verfolgen Sie sie jetzt (Strg+G).</translation>
     </message>
     <message>
       <source>The point has no place in this frame.</source>
       <translation>Der Punkt hat in diesem Bild keinen Ort.</translation>
+    </message>
+    <message>
+      <source>A point is being dragged: let it go first, or press Esc.</source>
+      <translation>Ein Punkt wird gezogen: erst loslassen, oder Esc drücken.</translation>
     </message>
     <message>
       <source>{point} has its place: drag it, or delete its track first.</source>
