@@ -15,7 +15,7 @@ import numpy as np
 
 from genmojo_core.errors import GenmojoError
 from genmojo_core.sentences import say
-from genmojo_core.tracks.model import NONE, VISIBLE, PointTracks
+from genmojo_core.tracks.model import NONE, PointTracks
 
 KEY, UNCERTAIN, CONFIRMED, SNAPPED, PAINTED = 1, 2, 4, 8, 16  # flags: a person placed it; ...; gave its state
 HUMAN, TRACKER, FLOW, LINEAR, IMPORT, HOLD = 1, 2, 3, 4, 5, 6  # source of a position; 0 for none
@@ -323,11 +323,6 @@ class Annotation:
         self.revision += 1
         for listener in tuple(self.listeners):
             listener(touched)
-
-
-def visible_inside(cells: Cells, size: tuple[int, int]) -> np.ndarray:  # (n,) bool
-    """Where a point is visible and inside the picture."""
-    return (cells.state == VISIBLE) & (cells.xy >= 0).all(axis=1) & (cells.xy <= np.array(size)).all(axis=1)
 
 
 def _blank(frames: int, count: int) -> Cells:
