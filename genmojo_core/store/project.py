@@ -232,18 +232,14 @@ class Project:
             return
         for seq, edit in news.edits.items():
             self._remember(seq, edit)
-        for row in news.rows:
-            if row.verb == "do":
-                news.edits[row.seq].do(self.annotation)
-            elif row.verb == "move":
-                back, forth = self.log.path(row.parent)
-                edits = self._edits([*back, *forth])
-                for seq in back:
-                    edits[seq].undo(self.annotation)
-                for seq in forth:
-                    edits[seq].do(self.annotation)
-            self.log.follow(row)
-        self.log.set_chain(news.chain)
+        with self.annotation.at_once():
+            for row in news.rows:
+                if row.verb == "do":
+                    news.edits[row.seq].do(self.annotation)
+                elif row.verb == "move":
+                    self._walk(*self.log.path(row.parent))
+                self.log.follow(row)
+            self.log.set_chain(news.chain)
         for track, proposal in news.proposals:
             if track in self.annotation.tracks:
                 self.annotation.propose(track, proposal)
@@ -285,17 +281,23 @@ class Project:
         if target is None:
             return None
         back, forth = self.log.path(target)
-        edits = self._edits([*back, *forth])
-        for seq in back:
-            edits[seq].undo(self.annotation)
-        for seq in forth:
-            edits[seq].do(self.annotation)
+        with self.annotation.at_once():
+            edits = self._walk(back, forth)
         moved = [edits[seq] for seq in (back or forth[::-1])]
         last = next((e for e in moved if e.frame is not None), moved[0])
         own = {"kind": "undo" if back else "redo", "title": last.title, "frame": last.frame, "track": last.track}
         tables = [s for seq in [*back, *forth] for s in _tables(edits[seq], undone=seq in back)]
         self._append(self.log.new_row("move", target, self.person, own), b"", tables)
         return Step(tuple(e.title for e in moved), last.frame, last.track)
+
+    def _walk(self, back: list[int], forth: list[int]) -> dict[int, Edit]:
+        """Undo edits, then do others; their data."""
+        edits = self._edits([*back, *forth])
+        for seq in back:
+            edits[seq].undo(self.annotation)
+        for seq in forth:
+            edits[seq].do(self.annotation)
+        return edits
 
     def _append(self, row: Row, payload: bytes, more: list[Statement]) -> None:
         """Add a row to the log and hand it to the writing thread."""

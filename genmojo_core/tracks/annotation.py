@@ -7,7 +7,8 @@ clip's source. Cells are held frame by frame, so what one frame shows is one sli
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
@@ -143,6 +144,13 @@ class Touched:
         else:
             self.first, self.last = min(self.first, first), max(self.last, last)
 
+    def add(self, other: Touched) -> None:
+        """What another edit changed, too."""
+        self.tracks |= other.tracks
+        self.objects |= other.objects
+        if other.last >= other.first:
+            self.add_frames(other.first, other.last)
+
 
 class Annotation:
     """Objects and tracks of one clip.
@@ -163,6 +171,7 @@ class Annotation:
         self.proposals: dict[int, dict[str, Proposal]] = {}
         self.listeners: list[Callable[[Touched], None]] = []
         self.revision = 0  # grows with every edit done or undone
+        self._held: Touched | None = None  # what listeners are told later
         self._rows: dict[int, int] = {}
         self._ids = np.zeros(0, np.int64)  # row -> track id, -1 where free
         self._aside = np.zeros(0, bool)  # row -> whether its track's object was rejected
@@ -318,9 +327,24 @@ class Annotation:
         owner = self.objects.get(track.object)
         return owner is not None and owner.status == "rejected"
 
+    @contextmanager
+    def at_once(self) -> Iterator[None]:
+        """Listeners are told of all that is done inside together, at its end: of hundreds of edits as of one."""
+        held = self._held = Touched()
+        before = self.revision
+        try:
+            yield
+        finally:
+            self._held = None
+            if self.revision != before:
+                self.notify(held)
+
     def notify(self, touched: Touched) -> None:
         """Count the change and tell every listener."""
         self.revision += 1
+        if self._held is not None:
+            self._held.add(touched)
+            return
         for listener in tuple(self.listeners):
             listener(touched)
 

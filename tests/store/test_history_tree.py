@@ -8,12 +8,12 @@ import annotations
 import numpy as np
 import pytest
 
-from genmojo_core.store import project_file
+from genmojo_core.store import project_file, project_news
 from genmojo_core.store.history_tree import History
 from genmojo_core.store.project import Project, info_of
 from genmojo_core.store.project_log import ROOT
 from genmojo_core.tracks import edit_tracks, keys
-from genmojo_core.tracks.annotation import ObjectInfo
+from genmojo_core.tracks.annotation import ObjectInfo, Touched
 
 
 def begun(path: Path) -> Project:
@@ -63,6 +63,35 @@ def test_an_answer_of_a_machine_belongs_to_its_deed_but_not_past_a_name(tmp_path
     project.do(annotations.solution(project.annotation, 1, np.arange(24), rng), step=step)
     history = History(project.log)
     assert len(history.states) == 6 and [s.names for s in history.states.values() if s.names] == [("between",)]
+    project.close()
+
+
+def test_listeners_are_told_once_of_a_long_way_and_of_all_that_changed_on_it(tmp_path: Path) -> None:
+    """A window paints after every word of a change: told of each edit it stood still for seconds."""
+    project = begun(tmp_path / "p.genmojo")
+    first = project.log.head
+    reader = Project.open(tmp_path / "p.genmojo", person="Bob")
+    told: list[tuple[set[int], int, int, str]] = []
+    followed: list[Touched] = []
+    project.annotation.listeners.append(
+        lambda t: told.append((set(t.tracks), t.first, t.last, project.annotation.digest()))
+    )
+    reader.annotation.listeners.append(followed.append)
+    before = project.annotation.digest()
+    for frame in (5, 9, 14):
+        key(project, frame)
+    project.do(edit_tracks.add_track(project.annotation, 1, 2))
+    last, after = project.log.head, project.annotation.digest()
+    told.clear()
+    project.go_to(first)
+    project.go_to(last)
+    assert told == [({1, 2}, 5, 14, before), ({1, 2}, 5, 14, after)]
+    project.wait()
+    news = project_news.read(reader.path, len(reader.log), reader.log.chain)
+    assert news is not None
+    reader.follow(news)
+    assert len(followed) == 1 and followed[0].tracks == {1, 2} and (followed[0].first, followed[0].last) == (5, 14)
+    assert reader.annotation.digest() == after
     project.close()
 
 
