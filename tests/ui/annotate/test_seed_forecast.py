@@ -49,6 +49,8 @@ def test_more_windows_take_longer():
 
 @pytest.fixture
 def dialog(workspace):
+    for kind in ("optical", "cotracker:cotracker2"):
+        Settings().put(f"seed/speed/{kind}", "")  # other tests have run trackers
     choose_all(workspace)
     place_points(workspace, each=2)
     workspace.table.trigger("annotate.track.seed")
