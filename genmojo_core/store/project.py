@@ -253,6 +253,7 @@ class Project:
             news = project_news.read(self.path, len(self.log), self.log.chain)
             if news is not None:
                 self.follow(news)
+            project_file.read_proposals(self.path, self.annotation)  # also those that no edit told of
         except GenmojoError:
             lock.close()
             raise

@@ -235,12 +235,27 @@ def _loaded(connection: sqlite3.Connection, path: Path) -> Loaded:
         log.follow(row)
     last = connection.execute("SELECT hash FROM edits ORDER BY seq DESC LIMIT 1").fetchone()
     log.set_chain(last[0] if last else b"")
+    _propose(connection, annotation)
+    version = int(connection.execute("PRAGMA user_version").fetchone()[0])
+    return Loaded(annotation, log, info, covered, version)
+
+
+def read_proposals(path: Path, annotation: Annotation) -> None:
+    """Give an annotation the proposals that a project keeps, and no others. Raises GenmojoError("io")."""
+    try:
+        with closing(connect_to_read(path)) as connection:
+            annotation.proposals.clear()
+            _propose(connection, annotation)
+    except sqlite3.Error as error:
+        raise GenmojoError("io", f"cannot be read ({error})", str(path), "open it again") from error
+
+
+def _propose(connection: sqlite3.Connection, annotation: Annotation) -> None:
+    """What trackers proposed for the tracks there are."""
     for name, data in connection.execute("SELECT name, data FROM blobs WHERE name LIKE 'proposal:%'"):
         track = int(name.split(":")[1])
         if track in annotation.tracks:
             annotation.propose(track, decode_proposal(data))
-    version = int(connection.execute("PRAGMA user_version").fetchone()[0])
-    return Loaded(annotation, log, info, covered, version)
 
 
 def _newest_snapshot(connection: sqlite3.Connection, info: ClipInfo, rows: int) -> tuple[Annotation, int]:

@@ -90,7 +90,7 @@ class ReviewPage(QWidget):
         which = REASONS[self.reason.currentIndex() if reason is None else reason]
         done = self._decide(lambda track, who, note: edit_tracks.needs_fix(session.annotation, track, which, run, who,
                                                                            note),
-                            tr("Returned to {name}: {reason}").replace("{reason}", told(which)))  # fmt: skip
+                            tr("Returned to {name}: {reason}.").replace("{reason}", told(which)))  # fmt: skip
         if done:
             session.run = (None, None)
 

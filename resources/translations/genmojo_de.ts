@@ -1916,8 +1916,8 @@
       <translation>Der Clip ist abgeschlossen: {parts}. Eine Spur zurückzugeben oder zu entsperren öffnet ihn wieder.</translation>
     </message>
     <message>
-      <source>Returned to {name}: {reason}</source>
-      <translation>An {name} zurückgegeben: {reason}</translation>
+      <source>Returned to {name}: {reason}.</source>
+      <translation>An {name} zurückgegeben: {reason}.</translation>
     </message>
     <message>
       <source>The annotator's note: {note}</source>
@@ -7854,6 +7854,14 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
       <translation>hat keine Änderung {seq}</translation>
     </message>
     <message>
+      <source>cannot be read ({error})</source>
+      <translation>kann nicht gelesen werden ({error})</translation>
+    </message>
+    <message>
+      <source>open it again</source>
+      <translation>öffne es neu</translation>
+    </message>
+    <message>
       <source>holds a history that does not fit together</source>
       <translation>enthält eine Geschichte, die nicht zusammenpasst</translation>
     </message>
@@ -7864,14 +7872,6 @@ Punkte sind überwachte Ansichten, der Ring ist diese Ansicht. Klicken, ziehen o
     <message>
       <source>free some space</source>
       <translation>schaffen Sie Platz</translation>
-    </message>
-    <message>
-      <source>cannot be read ({error})</source>
-      <translation>kann nicht gelesen werden ({error})</translation>
-    </message>
-    <message>
-      <source>open it again</source>
-      <translation>öffne es neu</translation>
     </message>
     <message>
       <source>holds another history by now</source>

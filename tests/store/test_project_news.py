@@ -15,7 +15,8 @@ from genmojo_core.store import project_db, project_file, project_news
 from genmojo_core.store.project import Project, info_of
 from genmojo_core.store.project_db import Holder
 from genmojo_core.tracks import edit_tracks
-from genmojo_core.tracks.annotation import ObjectInfo
+from genmojo_core.tracks.annotation import ObjectInfo, Proposal
+from genmojo_core.tracks.model import VISIBLE
 
 
 def both(tmp_path: Path) -> tuple[Project, Project]:
@@ -92,6 +93,20 @@ def test_writing_is_taken_over_with_what_was_written_last(tmp_path: Path) -> Non
     again = Project.open(reader.path)
     assert again.annotation.digest() == digest
     again.close()
+
+
+def test_proposals_that_no_edit_tells_of_are_taken_over(tmp_path: Path) -> None:
+    writer, reader = both(tmp_path)
+    writer.do(edit_tracks.add_track(writer.annotation, 1, 1))
+    (track,) = writer.annotation.tracks
+    catch_up(writer, reader)
+    xy = np.full((24, 2), 7.0, np.float32)
+    writer.propose(track, Proposal("scene", xy, np.full(24, VISIBLE, np.uint8), np.full(24, 0.5, np.float32)))
+    writer.close()
+    assert track not in reader.annotation.proposals
+    assert reader.take_over()
+    assert (reader.annotation.proposals[track]["scene"].xy == 7.0).all()
+    reader.close()
 
 
 def test_another_history_in_the_same_place_is_not_followed(tmp_path: Path) -> None:

@@ -153,7 +153,7 @@ def test_deciding_on_ones_own_track_is_possible_and_told(workspace, said):
     session.select_track(other)
     assert "Annotated by Cy." in page.about.text() and "own track" not in page.about.text()
     page.fix_button.click()
-    assert said[-1] == "Returned to Cy: drift"
+    assert said[-1] == "Returned to Cy: drift."
 
 
 def test_step_four_tells_rounds_words_of_both_sides_and_when_the_clip_is_closed(workspace, said, qtbot):
