@@ -225,7 +225,9 @@ class Holder:
 def holder(path: Path) -> Holder | None:
     """Who took a project's lock last; None where that is not written."""
     try:
-        told = parse_json(path.with_name(path.name + ".lock").read_bytes()[1:4096], str(path))
+        with open(path.with_name(path.name + ".lock"), "rb", buffering=0) as stream:
+            stream.seek(1)  # the byte before is the lock's: Windows lets nobody else read it
+            told = parse_json(stream.read(4095), str(path))
         return Holder(str(told["person"]), int(told["pid"]), str(told["host"]))
     except (OSError, GenmojoError, KeyError, TypeError, ValueError):
         return None  # nobody, or a program that does not write it

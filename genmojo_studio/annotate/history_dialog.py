@@ -24,7 +24,7 @@ from genmojo_studio.annotate.session import Session
 from genmojo_studio.translate import told, tr
 
 _SEQ = Qt.ItemDataRole.UserRole
-_MOST = 1000  # deeds listed at first, and more with each “Show earlier”
+_MOST = 300  # deeds listed at first, and more with each “Show earlier”
 _WIDTHS = (330, 150, 100, 170, 150)
 
 
