@@ -87,7 +87,7 @@ def _guided(motion: ObjectMotion, guide: Guide, n: int, xy: np.ndarray, span: tu
     linear = np.array(ways, np.float64).reshape(-1, 2, 2)  # none where the guide knows nothing nearby
     way = guide.xy[n]
     place = way[t] + np.einsum("mij,mj->mi", linear, xy[s] - way[s])
-    weight = GUIDED * np.minimum(guide.conf[n, s], guide.conf[n, t]) / np.sqrt(np.abs(s - t))
+    weight = GUIDED * np.minimum(guide.conf[n, s], guide.conf[n, t]) / np.abs(s - t) ** FADE
     return _Edges(s, t, linear, place, weight)
 
 
